@@ -8,19 +8,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted
 from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice import compare, scene_model
-from validation.advice import figure as figures
 from validation.advice.compare import SceneProblem, swept_values
-from validation.advice.figure import draw_sweep, figure_over_seconds
+from validation.advice.figure import MOST, errors_over_seconds, figure_over_seconds, panels_of
 from validation.advice.side_by_side import shown_models, speed_and_accuracy
 from validation.advice.summary import findings, in_full, summary
 from validation.railway.problems.rail_models import ContactFilter
+from validation.report.style import styles_of
 
 RAIL = validation.load_scene("rail")
 CLOSED = ["linear, ellipse", "linear, on the line", "Remington"]
@@ -73,11 +72,29 @@ def test_a_sweep_of_two_scenes_is_a_line_a_scene_over_the_swept_value():
         for j, scene in enumerate(("one", "other"))
         for i, of in enumerate(loads)
     ]
-    figure = Figure()
-    draw_sweep(figure.subfigures(), found, 5)
-    lines = {line.get_label(): line for line in figure.subfigs[0].axes[0].lines}
-    assert lines["one"].get_xdata().tolist() == [1.0, 5.0, 5.0] == lines["other"].get_xdata().tolist()
-    assert (lines["one"].get_ydata().tolist(), lines["other"].get_ydata().tolist()) == ([2, 1, 3], [12, 11, 13])
+    title, ((panel, table),) = panels_of(found)
+    assert title == "stiffness" and [curve.label for curve in panel.curves] == ["one", "other"]
+    for name, values in (("one", [2, 1, 3]), ("other", [12, 11, 13])):
+        rows = table.where(model=name)
+        assert rows["punch.load [kN]"].tolist() == [1.0, 5.0, 5.0] and rows["value"].tolist() == values
+
+
+def test_texts_of_a_sweep_stand_in_their_order():
+    ways = swept_values("rail.lateral_structure", ["ridges", "isotropic", "0.5"], "one")
+    _, ((panel, table),) = panels_of([replace(compared(Finding(value=(1.0,))), swept=of) for of in ways])
+    assert panel.log == "" and table[panel.x].tolist() == ["ridges", "isotropic", "0.5"]
+
+
+def test_a_sweep_of_spectra_has_the_force_and_the_bands_that_change_most_each_with_an_axis_of_its_own():
+    loads = swept_values("wheel.load", ["20 kN", "50 kN", "300 kN"], "Wheel")
+    found = [replace(planted("rail", "contact-filter", error=0.05), swept=of) for of in loads]
+    title, ((force, _), (bands, table)) = panels_of(found)
+    count = len(found[0].selection.solved)
+    assert title == f"Wheel: contact-filter; {MOST} curves of {count}, all are in the CSV"
+    assert force.y == "A-weighted [dB re 1 N]" and force.own_y and bands.own_y and bands.log == force.log == "x"
+    waves = table["wavelength [mm]"].tolist()
+    assert bands.facet == "wavelength [mm]" and len(set(waves)) == 3 and waves == sorted(waves, reverse=True)
+    assert len(bands.curves) == MOST and all(curve.band for curve in bands.curves)
 
 
 def of_its_own_grid(model, count, compared=0):
@@ -164,12 +181,42 @@ def test_speed_and_accuracy_are_drawn_for_one_scene_whose_models_were_timed(tmp_
 )
 def test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey():
     found = planted("rail", "contact-filter")
-    axes = Figure().subplots()
-    figures._draw_spectra(axes, figures._title_and_rows([found])[1])
-    lines = [line for line in axes.lines if line.get_label()[0] != "_"]
-    assert len(found.selection.solved) > len(lines) == figures.MOST == len({line.get_color() for line in lines})
-    assert len({(line.get_linestyle(), line.get_marker()) for line in lines}) == figures.MOST
-    assert lines[0].get_label() == f"{found.model}, selected"
+    title, ((panel, _),) = panels_of([found])
+    styles = styles_of([curve.model for curve in panel.curves]).values()
+    assert len(found.selection.solved) > len(styles) == MOST == len({style["color"] for style in styles})
+    assert len({(style["linestyle"], style["marker"]) for style in styles}) == MOST
+    assert panel.curves[0].label == f"{found.model}, selected" and title.endswith("all are in the CSV")
+    assert [curve.band for curve in panel.curves] == [True] + [False] * 4
+
+
+def test_a_spectrum_has_an_axis_of_frequencies_where_all_curves_have_one_speed():
+    rail = planted("rail", "contact-filter")
+    _, ((panel, table),) = panels_of([rail])
+    assert panel.above == ("frequency [Hz]", pytest.approx(1e3 * rail.scene.speed)) and panel.downward
+    assert table["wavelength [mm]"].tolist() == table["wavelength_mm"].tolist()
+    fast = replace(rail, scene=replace(rail.scene, name="fast", speed=2 * rail.scene.speed))
+    _, ((panel, table),) = panels_of([rail, fast])
+    assert panel.above is None and [curve.label for curve in panel.curves] == [rail.scene.name, "fast"]
+
+
+def test_numbers_have_a_row_a_model_and_the_interval_of_the_selected_one():
+    found = compared(Finding(name="a"), Finding(name="b", claimed=0.5), solve_all=True)
+    title, ((panel, table),) = panels_of([found, replace(found, quantity="force-rms")][:1])
+    assert (title, panel.x, table["row"].tolist()) == ("punch: stiffness", "stiffness [N/m]", ["a,\nselected", "b"])
+    assert [(curve.model, curve.style) for curve in panel.curves] == [((), ""), ("a", "interval")]
+    _, ((panel, table),) = panels_of([found, found])
+    assert [name.strip("\N{ZERO WIDTH SPACE}") for name in table["row"]] == ["punch", "punch"]
+    assert len(set(table["row"])) == 2 and len(panel.curves) == 1
+    _, ((panel, _),) = panels_of([compared(Fake(failed="lost"))])
+    assert panel.title == "no model has a result with a known error" and not panel.curves
+
+
+def test_errors_over_seconds_are_points_with_names_and_a_tolerance():
+    cheap, dear = (Finding(name=f"{value}", parts=(e, 0, 0), value=(value,)) for value, e in ((2.2, 0.1), (2.0, 0.01)))
+    panel, table = errors_over_seconds(compared(cheap, dear, solve_all=True))
+    assert [curve.label for curve in panel.curves] == ["2.2, selected", "2.0, its own error"]
+    assert table["value"] == pytest.approx([10.0, 1.0]) and panel.limits == {"tolerance, 20 %": pytest.approx(20.0)}
+    assert table["low"][0] == panel.ylim[0] == pytest.approx(1.0 / 1.6)
 
 
 def test_the_curves_are_selected_reference_mdr_and_the_nearest():

@@ -7,6 +7,7 @@ import pytest
 
 from validation.analysis.chart import STYLES, Chart, Curve, Panel, by_model
 from validation.analysis.evidence import Evidence, Table
+from validation.analysis.series import ENDS
 from validation.analysis.study import Settings
 from validation.report.drawing import FORMS, draw
 from validation.report.style import styles_of
@@ -182,3 +183,53 @@ def test_a_curve_has_a_style_that_is_drawn():
 def test_a_column_that_is_nowhere_is_named_with_its_chart():
     with pytest.raises(ValueError, match="chart 'c' names 'nowhere', which is no column of its tables"):
         drawn(Curve("level", by=("nowhere",)))
+
+
+def test_a_second_axis_above_has_a_constant_over_x():
+    (axis,) = drawn(Curve("level", "mdr", label="b"), above=("f [Hz]", 100.0), downward=True)
+    (above,) = axis.child_axes
+    axis.figure.draw_without_rendering()
+    assert above.get_xlabel() == "f [Hz]" and axis.get_xlim()[0] > axis.get_xlim()[1]
+    assert sorted(above.get_xlim()) == pytest.approx(sorted(100 / x for x in axis.get_xlim()))
+    assert [text.get_text() for text in above.get_xticklabels()] == [f"{tick:g}" for tick in above.get_xticks()]
+
+
+def test_rows_have_their_names_from_the_top_and_the_interval_of_one_is_shaded():
+    of = {"h/d": 0.1, "q a": 1.0}
+    curves = Curve("level", by=("model",), of=of), Curve("level", "mdr", "interval", of=of)
+    (axis,) = drawn(*curves, rows="model", log="")
+    assert [text.get_text() for text in axis.get_yticklabels()] == ["bem", "mdr"] and axis.yaxis_inverted()
+    points = [container.lines[0].get_xydata()[0].tolist() for container in axis.containers]
+    assert points == [[1.0, 0], [4.0, 1]] and axis.patches[0].get_extents().width > 0
+    segments = axis.containers[0].lines[2][0].get_segments()[0]
+    np.testing.assert_allclose(segments, [[0.9, 0], [1.3, 0]])
+
+
+def test_texts_of_the_horizontal_axis_are_equidistant_in_their_order():
+    ways = Table("ways", {"way": ["b", "a", "b", "a"], "model": ["m", "m", "n", "n"], **dict.fromkeys(ENDS, [1.0] * 4)})
+    (axis,) = draw(
+        Chart("c", "", (Panel("way", "y", (Curve("ways", by=("model",)),), log=""),)), replace(EVIDENCE, tables=(ways,))
+    ).axes
+    assert [text.get_text() for text in axis.get_xticklabels()] == ["b", "a"]
+    assert [line.get_xdata().tolist() for line in axis.lines] == [[0, 1], [0, 1]]
+
+
+def test_a_panel_may_have_a_vertical_axis_of_its_own_a_height_and_a_column():
+    panels = tuple(
+        Panel("q a", "y", (Curve("level", model, "black", "b"),), own_y=True, height=2.0) for model in MODELS
+    )
+    axes = draw(Chart("c", "", panels, title="above", columns=1), EVIDENCE).axes
+    assert axes[0].get_ylim() != axes[1].get_ylim() and axes[0].get_position().x0 == axes[1].get_position().x0
+    assert axes[0].figure.get_suptitle() == "above" and axes[0].figure.get_figheight() < 4.5
+
+
+def test_names_beside_points_do_not_cover_each_other_and_limits_are_in_the_legend():
+    near = Table(
+        "near", {"q a": [1.0, 1.01, 9.0], "model": ["a" * 20, "b" * 20, "c"], **dict.fromkeys(ENDS, [1.0] * 3)}
+    )
+    curves = [Curve("near", name, "marks", named=True) for name in near.columns["model"]]
+    (axis,) = drawn(*curves, tables=(near,), log="xy", limits={"tolerance": 2.0})
+    assert [text.get_text() for text in axis.texts] == near.columns["model"]
+    shifts = {text.get_text()[0]: text.xyann for text in axis.texts}
+    assert shifts["a"][1] != shifts["b"][1] and shifts["c"][0] < 0 < shifts["a"][0]
+    assert [text.get_text() for text in axis.figure.legends[0].get_texts()] == ["tolerance"]

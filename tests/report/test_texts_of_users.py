@@ -1,24 +1,26 @@
 """Names that a user gives are text in every figure: a $ begins no mathematics, and no name hides a curve."""
 
 import io
+from dataclasses import replace
 from types import SimpleNamespace
 
-import numpy as np
 import pytest
 from markupsafe import Markup
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 import validation.scenes.bundled
-from tests.advice.planted_answers import Finding, punch
+from tests.advice.planted_answers import Finding, planted, punch
 from tests.seeded import catches
 from validation.__main__ import main
-from validation.advice import figure as compared
 from validation.advice.compare import Comparison
-from validation.advice.figure import FORMATS, names_of_users, to_figure
+from validation.advice.figure import FORMATS, names_of_users, panels_of, to_figure
 from validation.advice.hierarchy import select_model
+from validation.analysis.chart import Chart
 from validation.analysis.evidence import Evidence, Table
 from validation.report import style
+from validation.report.drawing import draw
 from validation.report.formats import templates
 
 NAMES = (r"costs $\frac{$", "$x^2$", "a$b", r"\$ and $", r"$\alpha_{$ and \\", "_hidden", "10 % of #1 & <b>")
@@ -97,13 +99,16 @@ def test_names_of_any_length_stay_inside_a_figure():
 
 
 def test_curves_of_several_scenes_are_named_in_the_legend():
-    columns = {name: [0.0, -1.0] * 2 for name in ("value", "low", "high")} | {"wavelength_mm": [10.0, 5.0] * 2}
-    columns |= {"frequency_hz": [np.nan] * 4, "unit": ["dB"] * 4, "selected": [True] * 4}
-    table = Table("contact-filter", columns | {"scene": ["_one", "_one", "$two$", "$two$"]})
-    figure = Figure()
-    compared._draw_spectra(figure.subplots(), compared._selected_rows(table))
+    spectrum = planted("rail", "contact-filter")
+    found = [replace(spectrum, scene=replace(spectrum.scene, name=name)) for name in ("_one", "$two$")]
+    title, ((panel, table),) = panels_of(found)
+    evidence = Evidence(title="", method="", numbers=(), tables=(table,), conclusions=(), captions={})
+    figure = draw(Chart("it", panels=(panel,), title=title), evidence)
     style.plain_figure(figure)
-    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == [" _one", r"\$two\$"]
+    names = [
+        text.get_text() for text in (*figure.findobj(Text),) if "one" in text.get_text() or "two" in text.get_text()
+    ]
+    assert sorted(names) == [" _one", r"\$two\$"]
 
 
 def test_figures_of_cases_take_the_texts_of_their_tables_as_they_are():

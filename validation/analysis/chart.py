@@ -45,6 +45,8 @@ class Curve:
     upright : bool
         Whether the values are places on the horizontal axis, drawn as vertical lines across the panel, named by
         ``label`` in the legend or else at the lines by their models.
+    named : bool
+        Whether its name stands beside its points, and not in the legend.
 
     Raises
     ------
@@ -72,6 +74,7 @@ class Curve:
     marker_spacing: float = 0.0
     x_factor: float = 1.03
     upright: bool = False
+    named: bool = False
 
     def __post_init__(self) -> None:
         if self.style not in STYLES:
@@ -91,7 +94,8 @@ class Panel:
     Attributes
     ----------
     x : str
-        Column of the horizontal axis, which is its name too, unit included.
+        Column of the horizontal axis, which is its name too, unit included. Texts are equidistant, in the order of the
+        rows.
     y : str
         Name of the vertical axis, unit included; curves have the columns value, low and high.
     curves : tuple of Curve
@@ -100,6 +104,9 @@ class Panel:
         Above the panel; by default the values of ``facet``.
     facet : str or tuple of str
         Columns: a panel for each combination of their values; one panel where empty.
+    rows : str
+        Column of names that stand at the vertical axis, a row each, from the top; value, low and high are then
+        horizontal. None where empty.
     log : {"", "x", "y", "xy"}
         Axes that are logarithmic.
     xlim, ylim : tuple of float or None, or None
@@ -112,6 +119,8 @@ class Panel:
         Band of y within tolerance.
     lines : tuple of float
         Values of y with a horizontal line.
+    limits : mapping of str to float
+        Values of y with a dotted line, by their names in the legend.
     at : tuple of float
         Values of x with a dotted line, where the panel reaches them.
     downward : bool
@@ -120,6 +129,13 @@ class Panel:
         Whether x has ticks at the values of the curves alone.
     least : tuple of float
         Least x and y: smaller values are drawn there, and stay as they are in their table.
+    above : tuple of str and float, or None
+        Name of a second horizontal axis, above, and the constant c of its values c / x, as of frequencies above
+        wavelengths.
+    own_y : bool
+        Whether each panel has a vertical axis of its own, also beside others of its quantity.
+    height : float
+        Height [inch]; 0 for two thirds of its width and more.
 
     Examples
     --------
@@ -135,6 +151,7 @@ class Panel:
     title: str = ""
     _: KW_ONLY
     facet: str | tuple[str, ...] = ()
+    rows: str = ""
     log: str = "x"
     xlim: Bounds | None = None
     ylim: Bounds | None = None
@@ -142,10 +159,14 @@ class Panel:
     judged: str = ""
     shade: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()
+    limits: Mapping[str, float] = field(default_factory=dict)
     at: tuple[float, ...] = ()
     downward: bool = False
     ticked: bool = False
     least: tuple[float, float] = (-math.inf, -math.inf)
+    above: tuple[str, float] | None = None
+    own_y: bool = False
+    height: float = 0.0
 
     def of(self, *curves: Curve) -> "Panel":
         """The same with these curves."""
@@ -166,6 +187,10 @@ class Chart:
         In reading order; empty where ``report/figures`` has a function that draws it.
     claims : tuple of int
         Positions, in the study, of the claims that its headline states.
+    title : str
+        Above all panels; none where empty.
+    columns : int
+        Panels side by side; 0 for as many as suit their number.
 
     Examples
     --------
@@ -180,6 +205,8 @@ class Chart:
     panels: tuple[Panel, ...] = ()
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
+    title: str = ""
+    columns: int = 0
 
     def of(self, caption: str, *panels: Panel) -> "Chart":
         """The same with this caption and these panels."""

@@ -3,14 +3,17 @@
 import math
 import textwrap
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.container import Container
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
 
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, Verdict, placed
@@ -19,6 +22,7 @@ from validation.report.style import (
     BARS,
     GUIDE,
     INK,
+    SOFT,
     WIDTH,
     EachNumber,
     Style,
@@ -34,8 +38,12 @@ LINE, ROW, LETTER, KEY = 9.0, 12.0, 4.2, 34.0
 """Height of a line of names, and of one of a legend, width of a letter, and of the sample before a name [points]."""
 MOST, FARTHEST = 6, 1.5
 """Curves that are named at their ends; how far a name is moved, in lines."""
+LONGEST = 40
+"""Letters of a name that has room at the end of its curve."""
 BESIDE = 14
 """Names for which a spare place of the grid has room."""
+TITLE, WIDE = 30, 90
+"""Letters of a line of a title, above one of several panels and across the figure."""
 NEAR_THE_EDGE = 0.8
 """Part of the panel from which on a curve ends at its side."""
 
@@ -51,16 +59,17 @@ def name_curves(figure: Figure, axes: Sequence[Axes], columns: int, spare: Seque
         names = [textwrap.fill(name, 30) for name in handles]
         spare[0].legend(handles.values(), names, loc="center", borderaxespad=0.0)
     elif handles:
-        widest = KEY + LETTER * max(map(len, handles))
+        widest = KEY + LETTER * max(len(line) for name in handles for line in name.split("\n"))
         most = max(1, min(len(handles), int(72 * WIDTH / widest)))
         # the panels keep their height
-        figure.set_figheight(figure.get_figheight() + ROW * -(-len(handles) // most) / 72)
+        lines = -(-len(handles) // most) * max(1 + name.count("\n") for name in handles)
+        figure.set_figheight(figure.get_figheight() + ROW * lines / 72)
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=most)
 
 
 def _at_the_ends(axis: Axes, named: Mapping[str, Artist]) -> bool:
     """Draw them right of the panel, lowest first. False where they are no curves, end elsewhere, or are too near."""
-    if len(named) < 2:
+    if len(named) < 2 or any(len(name) > LONGEST or "\n" in name for name in named):
         return False
     axis.figure.draw_without_rendering()  # type: ignore[union-attr]
     step = LINE * axis.figure.dpi / 72 / axis.bbox.height
@@ -116,7 +125,7 @@ FORMS: dict[str, Style] = {
 """Of a curve, over the style of its model, or of its place among ordered values."""
 FIRST, FIRST_OF_ALL = "first", "first of all"
 FEW, FEWEST, LARGE = 15, 3, 1e5
-FEW_DECADES, ASIDE = 300, 1.2
+FEW_DECADES, ASIDE, TICKS = 300, 1.2, 16
 WORST = "worst of a range and its interval: = within tolerance, ≠ outside, ? inconclusive"
 SIGN = {Verdict.WITHIN: "=", Verdict.OUTSIDE: "≠", Verdict.INCONCLUSIVE: "?"}
 
@@ -124,9 +133,10 @@ SIGN = {Verdict.WITHIN: "=", Verdict.OUTSIDE: "≠", Verdict.INCONCLUSIVE: "?"}
 def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figure:
     """users: names of models that are not the package's own."""
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
-    columns = len(facets) if len(facets) < 4 else 2 if len(facets) == 4 else 3
+    columns = chart.columns or (len(facets) if len(facets) < 4 else 2 if len(facets) == 4 else 3)
     rows = -(-len(facets) // columns)
-    figure, grid = panels(rows, columns)
+    heights = [max(panel.height for panel, _ in facets[row * columns :][:columns]) for row in range(rows)]
+    figure, grid = panels(rows, columns, heights=heights)
     axes, spare = grid[: len(facets)], grid[len(facets) :]
     _share(axes, [panel for panel, _ in facets])
     curves = [curve for panel in chart.panels for curve in _curves_with_table(panel, evidence)]
@@ -136,22 +146,27 @@ def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figur
             _panel(axis, panel, facet, evidence, styles)
         except KeyError as error:
             raise ValueError(f"chart {chart.name!r} names {error}, which is no column of its tables") from error
+        _title(axis, panel, facet, TITLE if columns > 1 else WIDE)
     for axis, (panel, _) in zip(axes, facets, strict=True):
         _limits(axis, panel)
     _name_axes_once(axes, columns)
     for axis in spare:
         axis.set_axis_off()
         axis.set_title("", loc="left")
+    if chart.title:
+        figure.suptitle(textwrap.fill(chart.title, WIDE), x=0.01, ha="left", fontsize="medium")
     name_curves(figure, axes, columns, spare)
+    for axis, (panel, facet) in zip(axes, facets, strict=True):
+        _name_points(axis, panel, facet, evidence)
     return figure
 
 
 def _share(axes: Sequence[Axes], drawn: Sequence[Panel]) -> None:
-    """The same quantity on the same scale has one axis, and so have the panels of a facet."""
-    scales = [(panel.y, panel.log, panel.ylim, panel.decades) for panel in drawn]
+    """The same quantity on the same scale has one axis, and so have the panels of a facet; rows have their names."""
+    scales = [(panel.y, panel.log, panel.ylim, panel.decades, i * bool(panel.rows)) for i, panel in enumerate(drawn)]
     for axis, panel, scale in zip(axes, drawn, scales, strict=True):
         same, of_facet = axes[scales.index(scale)], axes[drawn.index(panel)]
-        if same is not axis:
+        if same is not axis and not panel.own_y:
             axis.sharey(same)
         if of_facet is not axis:
             axis.sharex(of_facet)
@@ -189,6 +204,9 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         axis.axhspan(*panel.shade, color="#000000", alpha=0.08, linewidth=0, label="within the margin")
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
+    for name, y in panel.limits.items():
+        axis.axhline(y, label=name, **GUIDE)
+    places = _places(panel, facet, evidence)
     for curve in _curves_with_table(panel, evidence):
         # a family has one style in all facets
         family_keys = [key for key, *_ in _families(curve, _rows_of_curve(evidence, curve, {}))]
@@ -196,19 +214,68 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
             i = family_keys.index(key)
             is_ordered = set(curve.by) - {"model"}
             own = graded(i, len(family_keys)) if is_ordered else styles[_models(rows)[0]]
-            _curve(axis, curve, panel, rows, values, {**own, **FORMS[curve.style]}, i)
+            style = {**own, **FORMS[curve.style]}
+            if panel.rows:
+                _points_in_rows(axis, curve, panel, rows, places, style)
+            else:
+                _curve(axis, curve, panel, _at_places(rows, panel.x, places), values, style, i)
     if panel.judged:
         _verdicts(axis, _matching_rows(evidence.table(panel.judged + JUDGED), facet))
+    axis.set(xlabel=panel.x, ylabel=textwrap.fill(panel.y, round(26 * max(1.0, panel.height / 2))))
+    _scales(axis, panel, places)
+
+
+def _title(axis: Axes, panel: Panel, facet: dict[str, object], most: int) -> None:
+    """Behind the letter of the panel, its title or the values of its facet. most: characters of a line."""
     title = panel.title or ", ".join(_value_label(*f) for f in facet.items())
     lines = f"{axis.get_title(loc='left')} {title}".strip().split("\n")
-    axis.set_title("\n".join(textwrap.fill(line, 30) for line in lines), loc="left")
-    axis.set(xlabel=panel.x, ylabel=textwrap.fill(panel.y, 26))
+    axis.set_title("\n".join(textwrap.fill(line, most) for line in lines), loc="left")
+
+
+def _scales(axis: Axes, panel: Panel, places: Mapping[str, int]) -> None:
+    """Linear or logarithmic axes, or names at the places that they have."""
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
+    named: Literal["x", "y", ""] = "" if not places else "y" if panel.rows else "x"
     names: tuple[Literal["x", "y"], ...] = ("x", "y")
     for name in names:
-        if name not in panel.log:
+        if name not in panel.log and name != named:
             axis.locator_params(axis=name, nbins=5)
             (axis.xaxis if name == "x" else axis.yaxis).set_major_formatter(EachNumber())
+    if named == "y":
+        axis.set_yticks(list(places.values()), list(places))
+        axis.set_ylim(len(places) - 0.4, -0.6)
+    elif named == "x":
+        axis.set_xticks(list(places.values()), list(places))
+        axis.margins(x=0.2)
+
+
+def _places(panel: Panel, facet: dict[str, object], evidence: Evidence) -> dict[str, int]:
+    """Numbers of the rows of a panel, or of the texts of its horizontal axis, by what stands there; none of numbers."""
+    column = panel.rows or panel.x
+    tables = [_rows_of_curve(evidence, curve, facet) for curve in _curves_with_table(panel, evidence)]
+    cells = [cell for table in tables for cell in table.columns.get(column, ())]
+    names = dict.fromkeys(map(str, cells)) if panel.rows or any(isinstance(cell, str) for cell in cells) else ()
+    return {name: i for i, name in enumerate(names)}
+
+
+def _at_places(rows: Table, x: str, places: Mapping[str, int]) -> Table:
+    """The rows with the places of texts in a column."""
+    return replace(rows, columns={**rows.columns, x: [places[str(cell)] for cell in rows[x]]}) if places else rows
+
+
+def _points_in_rows(
+    axis: Axes, curve: Curve, panel: Panel, rows: Table, places: Mapping[str, int], style: Style
+) -> None:
+    """A point and its horizontal interval in the row of each name; an interval alone is shaded across all rows."""
+    value, low, high = (np.asarray(rows[end], dtype=np.float64) for end in ENDS)
+    if curve.style == "interval":
+        for i in np.flatnonzero(np.isfinite(low) & np.isfinite(high)):
+            axis.axvspan(low[i], high[i], color=style["color"], alpha=0.1, linewidth=0)
+        return
+    bars = np.nan_to_num([value - low, high - value], posinf=0.0)
+    marker = style["marker"] if style["marker"] != "none" else "o"
+    own: Style = {**style, "linestyle": "none", "markersize": 5, "marker": marker}
+    axis.errorbar(value, [places[str(name)] for name in rows[panel.rows]], xerr=bars, **own, capsize=3, elinewidth=1.0)
 
 
 def _verdicts(axis: Axes, judged: Table) -> None:
@@ -227,6 +294,9 @@ def _verdicts(axis: Axes, judged: Table) -> None:
 def _limits(axis: Axes, panel: Panel) -> None:
     # lines across the panel have ends in parts of it
     lines = [line for line in axis.lines if line.get_transform() == axis.transData]
+    if any(curve.named for curve in panel.curves):
+        # room for names
+        axis.margins(x=0.15, y=0.1)
     if panel.decades:
         top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in lines), default=1.0)
         low = top * 10**-panel.decades if "y" in panel.log else top - panel.decades
@@ -235,17 +305,38 @@ def _limits(axis: Axes, panel: Panel) -> None:
         axis.set_xlim(*panel.xlim)
     if panel.ylim:
         axis.set_ylim(*panel.ylim)
+    _ticks(axis, panel, lines)
+    for x in panel.at:
+        if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
+            axis.axvline(x, **GUIDE)
+    if panel.downward:
+        axis.xaxis.set_inverted(True)
+    if panel.above:
+        _second_axis(axis, *panel.above)
+
+
+def _ticks(axis: Axes, panel: Panel, lines: Sequence[Line2D]) -> None:
+    """Ticks at the values of the curves, or at round ones of logarithmic axes."""
     if panel.ticked:
         tick(axis, _separate_ticks(np.unique(np.concatenate([line.get_xdata() for line in lines]))))
     elif "x" in panel.log and max(axis.get_xlim()) < LARGE:
         tick(axis, _round_ticks(*sorted(axis.get_xlim())))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
         tick(axis, _round_ticks(*axis.get_ylim()), up=True)
-    for x in panel.at:
-        if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
-            axis.axvline(x, **GUIDE)
-    if panel.downward:
-        axis.xaxis.set_inverted(True)
+
+
+def _second_axis(axis: Axes, name: str, constant: float) -> None:
+    """An axis above, on which constant / x stands."""
+
+    def reciprocal(values: ArrayLike) -> np.ndarray:
+        """Of x, and the other way round; matplotlib tries zero, too."""
+        return constant / np.maximum(np.asarray(values, dtype=np.float64), 1e-12)
+
+    above = axis.secondary_xaxis("top", functions=(reciprocal, reciprocal))
+    above.set_xlabel(name)
+    ticks = _round_ticks(*sorted(reciprocal(axis.get_xlim()).tolist()))
+    above.set_xticks(ticks, [f"{value:g}" for value in ticks])
+    above.xaxis.minorticks_off()
 
 
 def _round_ticks(low: float, high: float) -> list[float]:
@@ -260,12 +351,12 @@ def _round_ticks(low: float, high: float) -> list[float]:
 
 
 def _separate_ticks(values: np.ndarray) -> list[float]:
-    """Without those of curves that are moved aside."""
+    """Without those of curves that are moved aside, and of many each second, or third, from the largest on."""
     kept: list[float] = []
     for value in values.tolist():
         if not kept or value > ASIDE * kept[-1]:
             kept.append(value)
-    return kept
+    return kept[:: -1 - len(kept) // TICKS][::-1]
 
 
 def _value_label(name: str, value: object) -> str:
@@ -312,13 +403,18 @@ def _curve(
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_value_label(name, where[name]) for name in curve.by if name in where)
     label = label or (curve.model if isinstance(curve.model, str) else "")
-    label = label if label == curve.label else legend_name(label)
+    label = "_" if curve.named else label if label == curve.label else legend_name(label)
     if curve.upright:
         for x, name in zip(rows["value"], rows["model"], strict=True):
             axis.axvline(x, label=label or "_", **style)
             up = axis.get_xaxis_transform()
             axis.text(x, 0.02, "" if label else name, transform=up, rotation=90, va="bottom", ha="right", fontsize=7)
         return
+    if curve.named:
+        style["markersize"] = 5
+    if (style["marker"], style["linestyle"]) == ("none", "none"):
+        # a point without a form is not seen
+        style["marker"] = "o"
     above, down = 0.0 if "y" in panel.log else -np.inf, i * curve.down
     x, *ends = (
         np.maximum(rows[name], least) if least > -np.inf else rows[name]
@@ -340,4 +436,37 @@ def _curve(
     else:
         axis.plot(x, y - down, label=label, **style)
     if curve.band:
-        axis.fill_between(x, low, high, color=style["color"], alpha=0.15, linewidth=0)
+        # its edges are seen in grey, and where bands lie over each other
+        edge = {"edgecolor": to_rgba(style["color"], 0.5), "linewidth": 0.5, "linestyle": style["linestyle"]}
+        axis.fill_between(x, low, high, facecolor=to_rgba(style["color"], 0.15), **edge)
+
+
+def _name_points(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
+    """Names of points beside these, towards the middle, a line above the one below it at the least."""
+    points = [
+        (float(x), float(y), legend_name(curve.label or str(name)))
+        for curve in _curves_with_table(panel, evidence)
+        if curve.named
+        for rows in [_rows_of_curve(evidence, curve, facet)]
+        for x, y, name in zip(rows[panel.x], rows["value"], rows["model"], strict=True)
+    ]
+    points = [point for point in points if np.isfinite(point[:2]).all() and ("y" not in panel.log or point[1] > 0)]
+    if not points:
+        return
+    # places on the page are known once it is laid out
+    axis.figure.draw_without_rendering()  # type: ignore[union-attr]
+    ends = 72 / axis.figure.dpi * axis.transData.transform([point[:2] for point in points])
+    middle = 36 / axis.figure.dpi * (axis.bbox.x0 + axis.bbox.x1)
+    occupied: list[tuple[float, float, float]] = []
+    for i in np.argsort(ends[:, 1]):
+        (x, y), length = ends[i].tolist(), LETTER * len(points[i][2])
+        side: Literal["left", "right"] = "left" if x < middle else "right"
+        left, right = (x, x + length) if side == "left" else (x - length, x)
+        height = y
+        while near := [at for start, stop, at in occupied if left < stop and start < right and abs(at - height) < LINE]:
+            height = max(near) + LINE
+        occupied.append((left, right, height))
+        leader = {"arrowstyle": "-", "linewidth": 0.4, "color": SOFT} if height > y else None
+        words: Style = {"ha": side, "va": "center", "fontsize": 7.5, "arrowprops": leader, "in_layout": False}
+        shift = (8 if side == "left" else -8, height - y)
+        axis.annotate(points[i][2], points[i][:2], xytext=shift, textcoords="offset points", **words)

@@ -171,12 +171,13 @@ def panels(
     rows: int,
     columns: int,
     *,
-    height: float = 0.0,
+    heights: Sequence[float] = (),
 ) -> tuple[Figure, list[Axes]]:
-    """A figure of lettered panels, row by row, each as high as two thirds of its width and more, by default."""
-    height = height or rows * (0.6 + 0.62 * WIDTH / max(columns, 2))
-    figure = Figure(figsize=(WIDTH, height), layout="constrained")
-    axes = list(figure.subplots(rows, columns, squeeze=False).flat)
+    """A figure of lettered panels, row by row. heights: of each row [inch]; 0 for two thirds of its width and more."""
+    default = 0.6 + 0.62 * WIDTH / max(columns, 2)
+    heights = [height or default for height in heights or [0.0] * rows]
+    figure = Figure(figsize=(WIDTH, sum(heights)), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False, height_ratios=heights).flat)
     for i, axis in enumerate(axes if len(axes) > 1 else ()):
         axis.set_title(f"({_letters(i)})", loc="left")
     return figure, axes

@@ -37,7 +37,7 @@ def styles_of(names: Sequence[str]) -> dict[str, Style]:
 def draw(heats: Table) -> Figure:
     """Times, their ratios to ours, and how they grow."""
     problems, names = (list(dict.fromkeys(heats[name].tolist())) for name in ("problem", "solver"))
-    figure, (time, ratio, growth) = panels(1, 3, height=1.6 + 0.22 * len(problems))
+    figure, (time, ratio, growth) = panels(1, 3, heights=[1.6 + 0.22 * len(problems)])
     ratio.sharey(time)
     ratio.tick_params(labelleft=False)
     ours = heats.where(solver="bem3d")
