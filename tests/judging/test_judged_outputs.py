@@ -16,7 +16,7 @@ from validation.judging import judge as judged
 from validation.judging.figure import figure_of, left_out
 from validation.judging.judgement import judged_number, missing_number
 from validation.judging.kinds.own import ErrorOfCall
-from validation.judging.solvers.judged import SolverTime
+from validation.judging.solvers.checks import SolverTime
 from validation.judging.worker import Called
 
 

@@ -22,19 +22,19 @@ from validation.judging.judgement import (
     ranges_of,
     trusted_numbers,
 )
+from validation.judging.judgement_text import solver_lines, summary_lines
 from validation.judging.kinds.diagnosis import Remark, remarks
 from validation.judging.kinds.judge import JUDGES, points_of
 from validation.judging.kinds.own import ErrorOfCall, costs_of
 from validation.judging.replies import raised
-from validation.judging.words import solver_lines, summary_lines
 from validation.judging.worker import Called, visited
 from validation.report.folder import JUDGEMENT, Folder
 from validation.scenes.printable import printable
 
 if TYPE_CHECKING:
-    from validation.judging.solvers.judged import SolverTime
+    from validation.judging.solvers.checks import SolverTime
 
-OF_SOLVER = "validation.judging.solvers.judged:judged"
+OF_SOLVER = "validation.judging.solvers.checks:judged"
 """Of a contact solver; it imports all solvers."""
 BROKEN = "mdr-validation could not go on, which is its own error"
 RETURNED = "a process that it forked came back from the function: its answers were left out"

@@ -32,7 +32,7 @@ from validation.judging.kinds.sweeps import SWEPT
 
 if TYPE_CHECKING:
     from validation.judging.judge import Judgement
-    from validation.judging.solvers.judged import SolverTime
+    from validation.judging.solvers.checks import SolverTime
 
 COMPARED = (Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE)
 """Verdicts of rows that have a number."""
