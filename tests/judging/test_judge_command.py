@@ -15,11 +15,10 @@ from tests.judging.judged_points import NO_RESULT, OUTSIDE, WITHIN
 from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of
-from validation.judging.judgement import LEVEL, judged_number, missing_number
+from validation.judging.judgement import LEVEL, SolverTime, judged_number, missing_number
 from validation.judging.judgement_text import paragraph
 from validation.judging.kinds.own import ErrorOfCall
 from validation.judging.kinds.sweeps import HEAVY, LIGHT
-from validation.judging.solvers.checks import SolverTime
 
 SERIES = """
 from validation import stiffness_model

@@ -1,113 +1,176 @@
-"""The text of a judgement: strips and ranges of equal verdict, the largest deviations, and a paragraph for a paper."""
+"""Sentences of a judgement, for a terminal and for a paper: a template for each pattern, over what its numbers say."""
 
 import math
 import textwrap
-from collections import Counter
 from collections.abc import Iterator, Sequence
+from enum import StrEnum
 from importlib import metadata
 from typing import TYPE_CHECKING
 
-from validation.advice.tolerance import Tolerance, decibels
-from validation.analysis.number_text import deviation_text, interval_text
-from validation.analysis.ranges import VerdictRange, verdict_ranges
-from validation.analysis.verdict import Verdict
+from validation.advice.tolerance import Tolerance
+from validation.analysis.evidence import where_text
+from validation.analysis.number_text import deviation_text, interval_text, place_value
+from validation.analysis.ranges import VerdictRange
+from validation.analysis.verdict import OF_NUMBERS, Verdict
 from validation.judging.judgement import (
     LEVEL,
     JudgedNumber,
     JudgedSeries,
+    SolverTime,
     common_condition,
-    conditions_text,
+    counts_of,
+    groups_of,
     largest_deviations,
     series_of,
+    within_ranges,
 )
+from validation.judging.kinds import rolling, stiffness
 from validation.judging.kinds.held_out_solves import held_out
 from validation.judging.kinds.laws import in_words, table_14_1
 from validation.judging.kinds.own import MAIN
-from validation.judging.kinds.rolling import APART, RMS, about_roughness, about_strip
-from validation.judging.kinds.rolling import LEVEL as FORCE_LEVEL
-from validation.judging.kinds.rolling import MAIN as WHEEL
-from validation.judging.kinds.rolling import MEAN as MEAN_FORCE
-from validation.judging.kinds.stiffness import BAND, DEVIATION, MEAN, ROLLED_OFF, WAVES
 from validation.judging.kinds.sweeps import SWEPT
+from validation.judging.solvers.properties import Symptom
 
 if TYPE_CHECKING:
     from validation.judging.judge import Judgement
-    from validation.judging.solvers.checks import SolverTime
 
-COMPARED = (Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE)
-"""Verdicts of rows that have a number."""
 LINE, STRIPS, LISTED = 110, 24, 6
 """Characters of a line; series of a quantity that are printed; values of a condition that a paper lists."""
+PAPER = "\nFor a paper:"
 NO_SIGN = "rms of the difference over that of the fluctuation, which has no sign"
+_OF_PUNCH = f"all at {stiffness.BAND} = {stiffness.WAVES}"
+_OF_LEVELS = f"roughness of {rolling.about_roughness()}, wheel of {rolling.MAIN}"
+_APART = [rolling.APART.format(name) for name in ("force", "approach")]
 NOTES = (
-    dict.fromkeys((MEAN, DEVIATION, ROLLED_OFF), f"all at {BAND} = {WAVES}")
-    | dict.fromkeys((FORCE_LEVEL, RMS, MEAN_FORCE), f"roughness of {about_roughness()}, wheel of {WHEEL}")
-    | {APART.format(name): f"{NO_SIGN}; {about_strip()}, wheel of {WHEEL}" for name in ("force", "approach")}
-    | {held_out(APART.format(name)): NO_SIGN for name in ("force", "approach")}
+    dict.fromkeys((stiffness.MEAN, stiffness.DEVIATION, stiffness.ROLLED_OFF), _OF_PUNCH)
+    | dict.fromkeys((rolling.LEVEL, rolling.RMS, rolling.MEAN), _OF_LEVELS)
+    | dict.fromkeys(_APART, f"{NO_SIGN}; {rolling.about_strip()}, wheel of {rolling.MAIN}")
+    | dict.fromkeys(map(held_out, _APART), NO_SIGN)
 )
 """Settings of a quantity that its conditions do not have."""
 
 
+class Line(StrEnum):
+    """Templates of lines on a reduced model.
+
+    strip: a sign a number; outcome: ranges of each verdict; warning: of the model, or that it has given none.
+    """
+
+    RESULT = "{model}: {kind}, tolerance {tolerance}, {count} points in {seconds:.1f} s: {counts}"
+    QUANTITY = "\n{quantity}{along}{note}"
+    STRIP = "  {conditions:32s} {strip}  {outcome}"
+    LARGEST = "  {quantity}, {conditions}: {shown}"
+    BROKEN = "  {quantity}, {place}: {shown}{warning}"
+    COST = "  {model:32s}{error:>10s}{seconds:10.2g} s"
+
+
+class Sentence(StrEnum):
+    """Templates of the paragraph on a reduced model, in their order.
+
+    limit: the tolerance in the unit of the quantity; every: other conditions under which it is met; settings: what was
+    compared.
+    """
+
+    REFERENCE = "The model {model!r} was compared with {reference}, the references of mdr-validation {version}."
+    TOLERANCE = "A number is within {tolerance} where its whole 95 % interval is, by the errors of both."
+    POINTS_WITHIN = "Its {quantity} is within {limit} at {within} of {count} points{settings}."
+    RANGES_WITHIN = "Its {quantity} is within {limit} for {along} = {ranges}{every}{settings}."
+    NEVER_WITHIN = "For no {along} its {quantity} is within {limit}{every} for certain{settings}."
+    COUNTS = "Of {count} points {counts}."
+    CONTRADICTED = "It contradicts what is known in closed form: {quantities}."
+    LARGEST = "The largest deviation, of its {quantity}, is {shown}{place}."
+    LOST = "It has no value at {lost} of {count} points."
+
+
+class SolverPattern(StrEnum):
+    """Templates of the lines on a contact solver, and of the sentence on it."""
+
+    RESULT = "{model}: contact solver, {result}{unserved}, {seconds:.1f} s"
+    REASON = "  {reason}: {quantities}, in {problems}{more}"
+    COVERED = "  the verdict covers {count} problems that the solver serves; {rest} it says nothing"
+    OTHER = "  {place}: {reason}"
+    TIME = "  {cells:.0f}²{seconds:12.3g} s{ratio:9.2g} times"
+    GROWTH = "  its time grows as the number of cells to the power {power:.2g}, that of bem3d {of_bem3d:.2g}"
+    PAPER = "  {model!r} {verb} discrete problems{half_spaces} of mdr-validation {version}{accuracy}{limits}."
+
+
 def summary_lines(judgement: "Judgement") -> Iterator[str]:
     """Of a reduced model."""
-    numbers = judgement.numbers
-    count = Counter(number.verdict for number in numbers)
-    counts = ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict if count[verdict]) or "none"
-    kind, duration = judgement.kind.replace("_", " "), f"{len(numbers)} points in {judgement.seconds:.1f} s"
-    yield f"{judgement.model}: {kind}, tolerance {judgement.tolerance}, {duration}: {counts}"
+    numbers, quantities = judgement.numbers, series_of(judgement.numbers)
+    yield Line.RESULT.format(
+        model=judgement.model,
+        kind=judgement.kind.replace("_", " "),
+        tolerance=judgement.tolerance,
+        count=len(numbers),
+        seconds=judgement.seconds,
+        counts=", ".join(f"{count} {verdict}" for verdict, count in counts_of(numbers).items()) or "none",
+    )
     for remark in judgement.remarks:
         yield from textwrap.wrap(remark.sentence, LINE, initial_indent="! ", subsequent_indent="  ")
     yield f"strips: {', '.join(f'{verdict.sign} {verdict}' for verdict in Verdict)}"
-    for series in series_of(numbers):
-        along = series[0].along if len(series[0].numbers) > 1 else ""
-        note = NOTES.get(series[0].quantity, "")
-        yield f"\n{series[0].quantity}{f', along {along}' if along else ''}{f' ({note})' if note else ''}"
+    for series in quantities:
+        along = f", along {series[0].along}" if series[0].along and len(series[0].numbers) > 1 else ""
+        note = f" ({note})" if (note := NOTES.get(series[0].quantity)) else ""
+        yield Line.QUANTITY.format(quantity=series[0].quantity, along=along, note=note)
         yield from map(strip_line, series[:STRIPS])
         if len(series) > STRIPS:
             yield f"  and {len(series) - STRIPS} more, which --csv writes"
-    scenes = [number for number in numbers if number.quantity not in SWEPT]
-    if largest := largest_deviations(scenes):
-        yield f"\nThe worst{f' {len(largest)}' if len(largest) > 1 else ''}:"
-        for number in largest:
-            yield f"  {number.quantity}, {conditions_text(number.where) or 'everywhere'}: {number.shown}"
-        if largest[0].verdict is Verdict.OUTSIDE and (common := common_condition(largest, scenes)):
-            yield f"  They share: {common}."
-    yield from closed_form_lines(numbers)
+    yield from _largest_lines(numbers)
+    yield from closed_form_lines([part for series in quantities for part in series if part.is_closed_form])
     if judgement.costs:
         yield f"\nMedian error of the {MAIN[judgement.kind]}, and seconds of the call that took longest:"
-        for cost in judgement.costs:
-            yield f"  {cost.model:32s}{deviation_text(cost.error, cost.unit):>10s}{cost.seconds:10.2g} s"
-    yield "\nFor a paper:"
+    for cost in judgement.costs:
+        error = deviation_text(cost.error, cost.unit)
+        yield Line.COST.format(model=cost.model, error=error, seconds=cost.seconds)
+    yield PAPER
     yield from textwrap.wrap(paragraph(judgement), LINE, initial_indent="  ", subsequent_indent="  ")
 
 
 def strip_line(series: JudgedSeries) -> str:
     """A sign a number, then the ranges: "within tolerance from 0.464 to 10; outside tolerance at 0.001"."""
-    strip, first = "".join(number.verdict.sign for number in series.numbers), series.numbers[0]
+    first, parts = series.numbers[0], series.verdict_ranges
     if len(series.numbers) == 1:
-        return f"  {conditions_text(first.where) or 'all':32s} {strip}  {first.verdict}: {first.shown}"
-    ranges = series.ranges
-    parts = {v: " and ".join(_from_to(r.start, r.stop) for r in ranges if r.verdict is v) for v in Verdict}
-    sentence = "; ".join(f"{verdict} {part}" for verdict, part in parts.items() if part)
-    return f"  {conditions_text(series.where) or 'all':32s} {strip}  {sentence}"
+        outcome, where = f"{first.verdict}: {first.shown}", first.where
+    else:
+        ranges = {v: " and ".join(_range_text(part) for part in parts if part.verdict is v) for v in Verdict}
+        outcome, where = "; ".join(f"{verdict} {text}" for verdict, text in ranges.items() if text), series.where
+    strip = "".join(number.verdict.sign for number in series.numbers)
+    return Line.STRIP.format(conditions=where_text(where) or "all", strip=strip, outcome=outcome)
 
 
-def _from_to(start: float, stop: float) -> str:
+def _range_text(part: VerdictRange) -> str:
     """ "from 0.464 to 10", "at 10"."""
-    return f"from {start:.3g} to {stop:.3g}" if stop > start else f"at {start:.3g}"
+    return f"{'from' if part.stop > part.start else 'at'} {interval_text(part.start, part.stop)}"
 
 
-def closed_form_lines(numbers: Sequence[JudgedNumber]) -> Iterator[str]:
+def _largest_lines(numbers: Sequence[JudgedNumber]) -> Iterator[str]:
+    """The largest deviations of its scenes, and the condition that they share."""
+    scenes = _of_scenes(numbers)
+    if not (largest := largest_deviations(scenes)):
+        return
+    yield f"\nThe worst{f' {len(largest)}' if len(largest) > 1 else ''}:"
+    for number in largest:
+        conditions = where_text(number.where) or "everywhere"
+        yield Line.LARGEST.format(quantity=number.quantity, conditions=conditions, shown=number.shown)
+    if largest[0].verdict is Verdict.OUTSIDE and (common := common_condition(largest, scenes)):
+        yield f"  They share: {common}."
+
+
+def _of_scenes(numbers: Sequence[JudgedNumber]) -> list[JudgedNumber]:
+    """Without those beyond the scenes of a judge."""
+    return [number for number in numbers if number.quantity not in SWEPT]
+
+
+def closed_form_lines(closed_forms: Sequence[JudgedSeries]) -> Iterator[str]:
     """Closed forms and asymptotic limits that the model does not follow, and whether it has warned of that.
 
     Where it follows all, the limits beyond the scenes of its judge.
     """
-    closed_forms = [series for group in series_of(numbers) for series in group if series.is_closed_form]
-    breaks = [_break_line(series, part) for series in closed_forms for part in series.verdict_ranges]
+    broken = [(series, part) for series in closed_forms for part in series.verdict_ranges if _is_broken(part)]
     limits = [series for series in closed_forms if series.quantity in SWEPT]
-    if lines := list(filter(None, breaks)):
+    if broken:
         yield "\nWhere it breaks:"
-        yield from lines
+        yield from (_broken_line(series, part) for series, part in broken)
     elif limits:
         yield "\nBeyond these scenes:"
         for series in limits:
@@ -115,184 +178,160 @@ def closed_form_lines(numbers: Sequence[JudgedNumber]) -> Iterator[str]:
             yield f"  {series.quantity}: {Verdict.WITHIN if is_within else Verdict.INCONCLUSIVE}"
 
 
-def _break_line(series: JudgedSeries, part: VerdictRange) -> str:
-    """The largest deviation of a range; empty where the range is within tolerance or inconclusive."""
-    if part.verdict in (Verdict.WITHIN, Verdict.INCONCLUSIVE):
-        return ""
+def _is_broken(part: VerdictRange) -> bool:
+    return part.verdict not in (Verdict.WITHIN, Verdict.INCONCLUSIVE)
+
+
+def _broken_line(series: JudgedSeries, part: VerdictRange) -> str:
+    """The largest deviation of a range."""
     numbers = part.items(series.numbers)
-    where = (
-        f"{series.along} = {interval_text(part.start, part.stop)}" if series.along else conditions_text(series.where)
-    )
-    shown = max(numbers, key=lambda number: abs(number.difference)).shown
     silent = ", without a warning" if series.quantity in SWEPT else ""
     warning = next((f", {number.reason}" for number in numbers if number.reason), silent)
-    return f"  {series.quantity}, {where}: {shown}{warning if part.verdict is Verdict.OUTSIDE else ''}"
+    return Line.BROKEN.format(
+        quantity=series.quantity,
+        place=f"{series.along} = {interval_text(part.start, part.stop)}" if series.along else where_text(series.where),
+        shown=max(numbers, key=lambda number: abs(number.difference)).shown,
+        warning=warning if part.verdict is Verdict.OUTSIDE else "",
+    )
 
 
 def paragraph(judgement: "Judgement") -> str:
     """Sentences that could stand in a paper: the reference, the tolerance, the conditions, and the results."""
-    numbers, tolerance = judgement.numbers, judgement.tolerance
-    groups = series_of(numbers)
-    of_wheel, version = judgement.kind == "contact_law", metadata.version("mdr-validation")
+    numbers, quantities = judgement.numbers, series_of(judgement.numbers)
+    of_wheel = judgement.kind == "contact_law"
     reference = f"springs (MDR) under {in_words(table_14_1())}" if of_wheel else "boundary elements"
     sentences = [
-        f"The model {judgement.model!r} was compared with {reference}, the references of mdr-validation {version}.",
-        f"A number is within {tolerance} where its whole 95 % interval is, by the errors of both.",
+        Sentence.REFERENCE.format(
+            model=judgement.model, reference=reference, version=metadata.version("mdr-validation")
+        ),
+        Sentence.TOLERANCE.format(tolerance=judgement.tolerance),
+        *(remark.sentence for remark in judgement.remarks),
+        *(
+            quantity_sentence(judgement.tolerance, series)
+            for series in quantities
+            if not series[0].is_closed_form and any(part.has_a_number for part in series)
+        ),
     ]
-    sentences += [remark.sentence for remark in judgement.remarks]
-    sentences += [
-        quantity_sentence(tolerance, series)
-        for series in groups
-        if not series[0].is_closed_form and any(part.has_a_number for part in series)
+    counts = {verdict: count for verdict, count in counts_of(numbers).items() if verdict in OF_NUMBERS}
+    count = sum(counts.values())
+    if counts:
+        first, *rest = counts
+        verb = "is" if counts[first] == 1 else "are"
+        texts = [f"{counts[first]} {verb} {first}", *(f"{counts[verdict]} {verdict}" for verdict in rest)]
+        sentences.append(Sentence.COUNTS.format(count=count, counts=", ".join(texts)))
+    closed_forms = [
+        number for series in quantities for part in series if part.is_closed_form for number in part.numbers
     ]
-    count = Counter(number.verdict for number in numbers)
-    total = sum(count[verdict] for verdict in COMPARED)
-    if verdicts := [verdict for verdict in COMPARED if count[verdict]]:
-        first, *rest = verdicts
-        counts = [f"{count[first]} {'is' if count[first] == 1 else 'are'} {first}", *(f"{count[v]} {v}" for v in rest)]
-        sentences.append(f"Of {total} points {', '.join(counts)}.")
-    closed_forms = [series for group in groups for series in group if series.is_closed_form]
-    if broken := [s.quantity for s in closed_forms if any(n.verdict is Verdict.OUTSIDE for n in s.numbers)]:
-        sentences.append(f"It contradicts what is known in closed form: {', '.join(dict.fromkeys(broken))}.")
-    largest = largest_deviations([number for number in numbers if number.quantity not in SWEPT], 1)
+    if broken := dict.fromkeys(number.quantity for number in closed_forms if number.verdict is Verdict.OUTSIDE):
+        sentences.append(Sentence.CONTRADICTED.format(quantities=", ".join(broken)))
+    largest = largest_deviations(_of_scenes(numbers), 1)
     if largest and largest[0].verdict is Verdict.OUTSIDE:
-        where = f" at {text}" if (text := conditions_text(largest[0].where)) else ""
-        sentences.append(f"The largest deviation, of its {largest[0].quantity}, is {largest[0].shown}{where}.")
-    if lost := len(numbers) - total:
-        sentences.append(f"It has no value at {lost} of {len(numbers)} points.")
+        place = f" at {text}" if (text := where_text(largest[0].where)) else ""
+        fields = {"quantity": largest[0].quantity, "shown": largest[0].shown, "place": place}
+        sentences.append(Sentence.LARGEST.format(**fields))
+    if lost := len(numbers) - count:
+        sentences.append(Sentence.LOST.format(lost=lost, count=len(numbers)))
     return " ".join(sentences)
 
 
 def quantity_sentence(tolerance: Tolerance, series: Sequence[JudgedSeries]) -> str:
-    """The range that is within tolerance in all series of a quantity, or in those that share a condition.
+    """The ranges that are within tolerance in all series of a quantity, or in those that share a condition.
 
     Without a parameter the count of numbers within tolerance.
     """
     first, numbers = series[0], [number for part in series for number in part.numbers]
     names = dict.fromkeys(name for number in numbers for name in number.where)
-    settings = "; ".join(filter(None, (*(_condition_text(name, numbers) for name in names), NOTES.get(first.quantity))))
-    settings = f" (compared: {settings})" if settings else ""
-    limit = f"{decibels(tolerance.relative):.2g} dB" if numbers[0].unit == LEVEL else str(tolerance)
+    settings = "; ".join(filter(None, (*(_setting(name, numbers) for name in names), NOTES.get(first.quantity))))
+    fields: dict[str, object] = {
+        "quantity": first.quantity,
+        "along": first.along,
+        "limit": Tolerance(tolerance.relative, in_decibels=True) if numbers[0].unit == LEVEL else tolerance,
+        "settings": f" (compared: {settings})" if settings else "",
+    }
     if not first.along or max(len(part.numbers) for part in series) == 1:
         within = sum(number.verdict is Verdict.WITHIN for number in numbers)
-        return f"Its {first.quantity} is within {limit} at {within} of {len(numbers)} points{settings}."
-    varied = [name for name in first.where if len({part.where[name] for part in series}) > 1]
-    numeric = [name for name in varied if any(isinstance(part.where[name], float) for part in series)]
-    groups, by = {"": list(series)}, ""
-    if numeric and not _range_within(series, numeric):
-        by = numeric.pop()
-        varied.remove(by)
-        values = dict.fromkeys(part.where[by] for part in series)
-        groups = {_value_text(value): [part for part in series if part.where[by] == value] for value in values}
-    values_of_range: dict[str, list[str]] = {}
-    for value, group in groups.items():
-        if ranges := _range_within(group, numeric):
-            values_of_range.setdefault(ranges, []).append(value)
-    each = " and ".join(f"every {name}{'' if name in numeric else ' compared there'}" for name in varied)
-    each = f" at {each}" if each else ""
-    if not values_of_range:
-        return f"For no {first.along} its {first.quantity} is within {limit}{each} for certain{settings}."
-    each = f",{each}" if by and each else each
-    at = f" at {by} = " if by else ""
-    places = "; ".join(f"{ranges}{at}{', '.join(values)}" for ranges, values in values_of_range.items())
-    return f"Its {first.quantity} is within {limit} for {first.along} = {places}{each}{settings}."
-
-
-def _range_within(series: Sequence[JudgedSeries], numeric: Sequence[str]) -> str:
-    """Ranges that are within tolerance in all of these series.
-
-    A range ends where the series of a value of the numeric conditions have no reference.
-    """
-    places: dict[tuple[float | str, ...], set[float]] = {}
-    lost: set[float] = set()
-    for part in series:
-        places.setdefault(tuple(part.where[name] for name in numeric), set()).update(part.at)
-        pairs = zip(part.at, part.numbers, strict=True)
-        lost |= {place for place, number in pairs if number.verdict is not Verdict.WITHIN}
-    within = set.intersection(*places.values()) - lost
-    ordered = sorted(set().union(*places.values()))
-    verdicts = [Verdict.WITHIN if place in within else Verdict.INCONCLUSIVE for place in ordered]
-    ranges = [part for part in verdict_ranges(ordered, verdicts) if part.verdict is Verdict.WITHIN]
-    return " and ".join(interval_text(part.start, part.stop) for part in ranges)
+        return Sentence.POINTS_WITHIN.format(within=within, count=len(numbers), **fields)
+    found = within_ranges(series)
+    every = " and ".join(f"every {name}{'' if name in found.numeric else ' compared there'}" for name in found.every)
+    fields["every"] = f"{',' if found.by and found.values else ''} at {every}" if every else ""
+    if not found.values:
+        return Sentence.NEVER_WITHIN.format(**fields)
+    places = []
+    for ranges, values in found.values.items():
+        at = f" at {found.by} = {', '.join(map(_value_text, values))}" if found.by else ""
+        places.append(" and ".join(interval_text(*ends) for ends in ranges) + at)
+    return Sentence.RANGES_WITHIN.format(ranges="; ".join(places), **fields)
 
 
 def _value_text(value: float | str) -> str:
-    """Of a condition, to three digits."""
-    return f"{value:.3g}" if isinstance(value, float) else value
+    return value if isinstance(value, str) else place_value(value)
 
 
-def _condition_text(name: str, numbers: Sequence[JudgedNumber]) -> str:
+def _setting(name: str, numbers: Sequence[JudgedNumber]) -> str:
     """Of a condition: all values, or their ends, or how many there are."""
     values = list(dict.fromkeys(number.where[name] for number in numbers if name in number.where))
     floats = sorted(value for value in values if isinstance(value, float))
     if len(floats) < len(values):
         return ", ".join(map(str, values)) if len(values) <= LISTED else f"{len(values)} values of {name}"
-    texts = ", ".join(f"{x:.0f}" if x.is_integer() else f"{x:.3g}" for x in floats)
-    return f"{name} = {texts if len(floats) <= LISTED else interval_text(floats[0], floats[-1])}"
+    few = ", ".join(map(place_value, floats)) if len(floats) <= LISTED else ""
+    return f"{name} = {few or interval_text(floats[0], floats[-1])}"
 
 
 SHOWN = 5
 """Reasons, and problems of each."""
 CHECKS = ("complementarity", "penetration", "force balance", "approach", "force", "pressure")
 NO_ROW = (*CHECKS, "tension", "answer", "conditions")
-UNEXPLAINED = dict.fromkeys(
-    (
-        "above the residual that it names",
-        "a deviation above what its residual allows",
-        "force not held",
-        "the pressure is another one",
-        "the contact shrinks under more load",
-        "it falls under more load",
-        "the error does not fall with the cell size",
-    ),
-    1,
-)
-"""Reasons that name what is measured, and no cause."""
 
 
 def solver_lines(
-    model: str, numbers: Sequence[JudgedNumber], times: Sequence["SolverTime"], seconds: float
+    model: str, numbers: Sequence[JudgedNumber], times: Sequence[SolverTime], seconds: float
 ) -> Iterator[str]:
     """Of a contact solver."""
     checks = [number for number in numbers if number.decides]
-    unserved = [number for number in numbers if not number.decides and number.verdict is Verdict.NOT_SERVED]
-    remaining = [n for n in numbers if not n.decides and n.verdict is not Verdict.NOT_SERVED]
+    others = [number for number in numbers if not number.decides]
+    unserved = [number for number in others if number.verdict is Verdict.NOT_SERVED]
     wrong = [number for number in checks if number.verdict is not Verdict.WITHIN]
     result = f"wrong in {len(wrong)} of {len(checks)} checks" if wrong else f"right in all {len(checks)} checks"
-    result = result if checks else "without an answer"
-    unserved_count = f", {len(unserved)} not served" if unserved else ""
-    yield f"{model}: contact solver, {result}{unserved_count}, {seconds:.1f} s"
+    yield SolverPattern.RESULT.format(
+        model=model,
+        result=result if checks else "without an answer",
+        unserved=f", {len(unserved)} not served" if unserved else "",
+        seconds=seconds,
+    )
     yield from reason_lines(wrong)
     yield from unserved_lines(unserved, checks)
-    for number in remaining:
-        yield f"  {', '.join(filter(None, [number.quantity, conditions_text(number.where)]))}: {number.reason}"
+    for number in others:
+        if number.verdict is not Verdict.NOT_SERVED:
+            place = ", ".join(filter(None, [number.quantity, where_text(number.where)]))
+            yield SolverPattern.OTHER.format(place=place, reason=number.reason)
     yield from ["", *problem_lines(checks)]
     if times:
         yield "\nseconds, and relative to bem3d: same grid and residual, one thread, each with its set-up:"
-        yield from (f"  {t.cells:.0f}²{t.seconds:12.3g} s{t.seconds / t.bem3d:9.2g} times" for t in times)
+    for t in times:
+        yield SolverPattern.TIME.format(cells=t.cells, seconds=t.seconds, ratio=t.seconds / t.bem3d)
     if len(times) > 1:
-        power, power_of_bem3d = (growth(times, name) for name in ("seconds", "bem3d"))
-        yield f"  its time grows as the number of cells to the power {power:.2g}, that of bem3d {power_of_bem3d:.2g}"
-    yield from ["\nFor a paper:", f"  {solver_sentence(model, wrong, checks, unserved)}"]
+        power, of_bem3d = (growth(times, name) for name in ("seconds", "bem3d"))
+        yield SolverPattern.GROWTH.format(power=power, of_bem3d=of_bem3d)
+    yield from [PAPER, solver_sentence(model, wrong, checks, unserved)]
 
 
 def solver_sentence(
-    model: str,
-    wrong: Sequence[JudgedNumber],
-    checks: Sequence[JudgedNumber],
-    unserved: Sequence[JudgedNumber],
+    model: str, wrong: Sequence[JudgedNumber], checks: Sequence[JudgedNumber], unserved: Sequence[JudgedNumber]
 ) -> str:
     """For a paper: a result that goes no further than the problems that were solved."""
-    failed, count = len(_problems(wrong)), len(_problems(checks))
-    verb = f"is wrong on {failed} of the {count}" if wrong else f"solves the {count}" if count else "solves none of the"
-    accuracy = "" if wrong or not count else " to its residual, by an operator that is not its own"
-    unserved_count = len(_problems(unserved) - _problems(checks))
-    limits = f"; {unserved_count} others it does not serve" if unserved else ""
-    periodic = {"periodic" in name for name in _problems(checks)}
-    half_spaces = "periodic" if True in periodic else "free"
-    kind = f" of {half_spaces} half-spaces" if len(periodic) == 1 else ""
-    version = metadata.version("mdr-validation")
-    return f"{model!r} {verb} discrete problems{kind} of mdr-validation {version}{accuracy}{limits}."
+    solved = _problems(checks)
+    failed, count = len(_problems(wrong)), len(solved)
+    periodic = {"periodic" in name for name in solved}
+    return SolverPattern.PAPER.format(
+        model=model,
+        verb=f"is wrong on {failed} of the {count}"
+        if wrong
+        else f"solves {f'the {count}' if count else 'none of the'}",
+        half_spaces=f" of {'periodic' if True in periodic else 'free'} half-spaces" if len(periodic) == 1 else "",
+        version=metadata.version("mdr-validation"),
+        accuracy="" if wrong or not count else " to its residual, by an operator that is not its own",
+        limits=f"; {len(_problems(unserved) - solved)} others it does not serve" if unserved else "",
+    )
 
 
 def unserved_lines(unserved: Sequence[JudgedNumber], checks: Sequence[JudgedNumber]) -> Iterator[str]:
@@ -301,27 +340,32 @@ def unserved_lines(unserved: Sequence[JudgedNumber], checks: Sequence[JudgedNumb
         return
     lost, solved = _problems(unserved), _problems(checks)
     counts = {"of {} others": len(lost - solved), "of {} in part": len(lost & solved)}
-    silent = ", and ".join(words.format(count) for words, count in counts.items() if count)
-    yield f"  the verdict covers {len(solved)} problems that the solver serves; {silent} it says nothing"
+    rest = ", and ".join(words.format(count) for words, count in counts.items() if count)
+    yield SolverPattern.COVERED.format(count=len(solved), rest=rest)
     yield from reason_lines(unserved)
+
+
+def _problem(number: JudgedNumber) -> str:
+    return str(number.where["problem"])
 
 
 def _problems(numbers: Sequence[JudgedNumber]) -> set[str]:
     """Names of the problems of these numbers."""
-    return {str(number.where["problem"]) for number in numbers}
+    return set(map(_problem, numbers))
 
 
 def reason_lines(numbers: Sequence[JudgedNumber]) -> Iterator[str]:
-    """Causes before reasons that are none, that of most problems first, each with its quantities and problems."""
-    groups: dict[str, list[JudgedNumber]] = {}
-    for number in numbers:
-        groups.setdefault(number.reason, []).append(number)
-    order = sorted(groups, key=lambda reason: (UNEXPLAINED.get(reason, 0), -len(_problems(groups[reason]))))
+    """Causes before symptoms, that of most problems first, each with its quantities and problems."""
+    groups = groups_of(numbers, lambda number: number.reason)
+    order = sorted(groups, key=lambda reason: (reason in {*Symptom}, -len(_problems(groups[reason]))))
     for reason in order[:SHOWN]:
-        quantities = ", ".join(dict.fromkeys(number.quantity for number in groups[reason]))
-        names = list(dict.fromkeys(str(number.where["problem"]) for number in groups[reason]))
-        more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-        yield f"  {reason}: {quantities}, in {'; '.join(names[:SHOWN])}{more}"
+        names = list(dict.fromkeys(map(_problem, groups[reason])))
+        yield SolverPattern.REASON.format(
+            reason=reason,
+            quantities=", ".join(dict.fromkeys(number.quantity for number in groups[reason])),
+            problems="; ".join(names[:SHOWN]),
+            more=f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "",
+        )
     if len(order) > SHOWN:
         yield f"  and {len(order) - SHOWN} other reasons"
 
@@ -330,15 +374,11 @@ def problem_lines(checks: Sequence[JudgedNumber]) -> Iterator[str]:
     """A table of relative deviations, a row a problem; then the properties of every half-space."""
     quantities = [name for name in CHECKS if any(number.quantity == name for number in checks)]
     yield f"{'relative deviation':40s}" + "".join(f"{name:>16s}" for name in quantities)
-    for problem in dict.fromkeys(str(number.where["problem"]) for number in checks):
-        row = {n.quantity: n for n in checks if n.where["problem"] == problem and n.quantity in quantities}
-        if row:
+    for problem, numbers in groups_of(checks, _problem).items():
+        if row := {number.quantity: number for number in numbers if number.quantity in quantities}:
             yield f"  {problem:38s}" + "".join(f"{_deviation_cell(row.get(name)):>16s}" for name in quantities)
-    properties: dict[str, list[JudgedNumber]] = {}
-    for number in checks:
-        if number.quantity not in NO_ROW:
-            properties.setdefault(number.quantity, []).append(number)
-    for name, numbers in properties.items():
+    properties = (number for number in checks if number.quantity not in NO_ROW)
+    for name, numbers in groups_of(properties, lambda number: number.quantity).items():
         is_within = all(number.verdict is Verdict.WITHIN for number in numbers)
         yield f"  {name:38s}{'holds' if is_within else 'does not hold':>16s}"
 
@@ -348,7 +388,7 @@ def _deviation_cell(number: JudgedNumber | None) -> str:
     return f"{abs(number.difference):.1e}{'' if number.verdict is Verdict.WITHIN else ' !'}" if number else ""
 
 
-def growth(times: Sequence["SolverTime"], name: str) -> float:
+def growth(times: Sequence[SolverTime], name: str) -> float:
     """Power of the number of cells, between the two finest grids."""
     before, after = times[-2:]
     ratio = getattr(after, name) / getattr(before, name)
