@@ -15,11 +15,10 @@ from tests.judging.judged_points import NO_RESULT, OUTSIDE, WITHIN
 from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of
-from validation.judging.judgement import LEVEL, judged_number, missing_number
+from validation.judging.judgement import LEVEL, SolverTime, judged_number, missing_number
+from validation.judging.judgement_text import paragraph
 from validation.judging.kinds.own import ErrorOfCall
 from validation.judging.kinds.sweeps import HEAVY, LIGHT
-from validation.judging.solvers.judged import SolverTime
-from validation.judging.words import paragraph
 
 SERIES = """
 from validation import stiffness_model
@@ -110,7 +109,7 @@ def broken(model, *_):
         "validation.judging.kinds.stiffness._rise",
         "validation.judging.kinds.sweeps.swept",
         "validation.judging.judge.costs_of",
-        "validation.judging.solvers.judged.judged",
+        "validation.judging.solvers.checks.judged",
     ],
 )
 def test_an_error_of_ours_is_a_row_and_takes_no_other_model_with_it(place, file, tmp_path, capsys, monkeypatch):

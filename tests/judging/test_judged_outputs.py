@@ -14,9 +14,8 @@ from tests.judging.test_judge_command import RIGHT, broken, pointed
 from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of, left_out
-from validation.judging.judgement import judged_number, missing_number
+from validation.judging.judgement import SolverTime, judged_number, missing_number
 from validation.judging.kinds.own import ErrorOfCall
-from validation.judging.solvers.judged import SolverTime
 from validation.judging.worker import Called
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from tests.judging.judged_points import NO_RESULT, OUTSIDE, WITHIN
 from validation.__main__ import main
-from validation.judging.solvers import judged as solvers
+from validation.judging.solvers import checks as solvers
 
 HEAD = """
 import bem3d

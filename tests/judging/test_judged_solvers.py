@@ -17,8 +17,8 @@ from validation import contact_solver
 from validation.benchmarks import discrete, peers
 from validation.benchmarks.discrete import STATED, ContactProblem, pressed
 from validation.judging.registry import KINDS, LOOSEST, Failed, Offered
-from validation.judging.solvers import judged
-from validation.judging.solvers.judged import findings
+from validation.judging.solvers import checks
+from validation.judging.solvers.checks import findings
 from validation.judging.solvers.properties import PROPERTIES, JudgedSolver
 from validation.judging.worker import Called
 
@@ -149,7 +149,7 @@ FAULTS = {
 
 
 @catches("properties of nothing but a square", *FAULTS["cells of a rectangle in another order"]).at(
-    "validation.judging.solvers.judged._rectangle", lambda problem, shape, longer: problem
+    "validation.judging.solvers.checks._rectangle", lambda problem, shape, longer: problem
 )
 @pytest.mark.parametrize(("solve", "quantity", "reason"), FAULTS.values(), ids=FAULTS)
 def test_a_seeded_fault_is_caught_and_named(solve, quantity, reason):
@@ -259,11 +259,11 @@ def test_stored_problems_are_made_anew_to_their_digits_and_hold_their_limits():
 
 @pytest.mark.parametrize(("seconds", "grids"), [(1.0, [24, 32]), (2.0, [24])])
 def test_a_solver_is_timed_beside_ours_until_it_takes_too_long(seconds, grids, monkeypatch):
-    monkeypatch.setattr(judged, "GRIDS", (24, 32))
-    monkeypatch.setattr(judged, "clocked", lambda solve: (solve(), seconds))
-    checks, times = zip(*judged.timed(asked(ours)), strict=True)
+    monkeypatch.setattr(checks, "GRIDS", (24, 32))
+    monkeypatch.setattr(checks, "clocked", lambda solve: (solve(), seconds))
+    rows, times = zip(*checks.timed(asked(ours)), strict=True)
     assert list(times) == [[(cells, seconds, seconds)] for cells in grids]
-    assert {point.verdict for some in checks for point in some} == {WITHIN}
+    assert {point.verdict for some in rows for point in some} == {WITHIN}
 
 
 LARGE = {
@@ -273,11 +273,11 @@ LARGE = {
 }
 
 
-timed = judged.timed
+timed = checks.timed
 
 
 @catches("answers that are timed and not judged", *LARGE["an even pressure"]).at(
-    "validation.judging.solvers.judged.timed", lambda asked: (([], times) for _, times in timed(asked))
+    "validation.judging.solvers.checks.timed", lambda asked: (([], times) for _, times in timed(asked))
 )
 @pytest.mark.parametrize(("way", "quantity"), LARGE.values(), ids=LARGE)
 def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
@@ -288,8 +288,8 @@ def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
         return way(p) if len(p) > 48 else p
 
     with pytest.MonkeyPatch.context() as monkeypatch:
-        monkeypatch.setattr(judged, "GRIDS", (32, 64))
-        points, times = judged.judged(asked(solve).model)
+        monkeypatch.setattr(checks, "GRIDS", (32, 64))
+        points, times = checks.judged(asked(solve).model)
     wrong = {(point.quantity, point.where["problem"]) for point in points if point.verdict != WITHIN}
     assert (quantity, "rough, light load, 64 x 64 cells") in wrong
     assert {place for _, place in wrong} == {"rough, light load, 64 x 64 cells"}
@@ -299,7 +299,7 @@ def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
 def test_a_solver_that_is_too_slow_for_a_large_grid_is_not_wrong_there(monkeypatch):
     late = asked(ours)
     monkeypatch.setattr(late.model, "calls", lambda *given: [Failed("no answer within 10 s", late=True)])
-    ((found,), times), *more = judged.timed(late)
+    ((found,), times), *more = checks.timed(late)
     assert (found.reason, found.decides, times, more) == ("no answer within 10 s", False, [], [])
 
 
@@ -308,6 +308,6 @@ def test_a_factor_in_our_own_operator_makes_us_wrong(monkeypatch):
     symbol = kernel.free_space_symbol
     monkeypatch.setattr(kernel, "free_space_symbol", lambda *of: 2 * symbol(*of))
     assert any("the answer for 0.5 times the modulus" in finding.reason for finding in wrong_in(ours))
-    monkeypatch.setattr(judged, "GRIDS", (24,))
-    ((found, times),) = judged.timed(asked(ours))
+    monkeypatch.setattr(checks, "GRIDS", (24,))
+    ((found, times),) = checks.timed(asked(ours))
     assert len(times) == 1 and {point.verdict for point in found} == {WITHIN, OUTSIDE}

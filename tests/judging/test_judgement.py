@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tests.judging.judged_points import INCONCLUSIVE, NO_RESULT, NOT_SERVED, OUTSIDE, WITHIN
-from tests.seeded import catches, module_with
+from tests.seeded import catches
 from validation.judging import judgement
 from validation.judging.judgement import (
     DEVIATION,
@@ -47,7 +47,7 @@ def test_the_whole_interval_lies_inside_or_outside_of_the_tolerance(value, half,
 
 
 @catches("decibels of a power for those of an amplitude", apart=0.8, half=0.02, verdict=WITHIN).at(
-    "validation.judging.judgement.math", module_with(math, log10=lambda x: math.log10(x) / 2)
+    "validation.judging.judgement.decibels", lambda ratio: 10 * math.log10(1 + ratio)
 )
 @pytest.mark.parametrize(
     ("apart", "half", "verdict"), [(0.8, 0.02, WITHIN), (0.8, 0.03, INCONCLUSIVE), (-0.9, 0.07, OUTSIDE)]

@@ -15,7 +15,7 @@ from validation.benchmarks import solvers as comparison
 from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.surface_problem import SurfaceProblem
 from validation.judging.registry import KINDS, Offered
-from validation.judging.solvers import judged, properties
+from validation.judging.solvers import checks, properties
 from validation.judging.solvers.properties import JudgedSolver, loaded, monotone
 from validation.judging.worker import Called
 
@@ -79,7 +79,7 @@ def test_an_answer_may_be_off_by_fifty_residuals(quantity, load, residuals, verd
     moved = replace(SMALL, approach=SMALL.approach + residuals * 1e-4 * SMALL.overlap)
     if load == "approach":
         moved = replace(SMALL, force=SMALL.force * (1 + residuals * 1e-4))
-    points = {point.quantity: point for point in judged.answer(asked, moved)}
+    points = {point.quantity: point for point in checks.answer(asked, moved)}
     assert points[quantity].verdict == verdict and points["pressure"].verdict == WITHIN
 
 
@@ -87,7 +87,7 @@ def test_an_answer_may_be_off_by_fifty_residuals(quantity, load, residuals, verd
 def test_a_pressure_may_be_off_by_fifty_residuals_in_l2(off, verdict):
     noise = SMALL.pressure * np.sign(np.random.default_rng(1).standard_normal(SMALL.pressure.shape))
     asked = answers(SMALL.pressure + off * 50 * 1e-4 * noise)
-    assert {p.quantity: p.verdict for p in judged.answer(asked, SMALL)}["pressure"] == verdict
+    assert {p.quantity: p.verdict for p in checks.answer(asked, SMALL)}["pressure"] == verdict
 
 
 @pytest.mark.parametrize(("off", "verdict"), [(1.9, WITHIN), (2.1, OUTSIDE)])
@@ -98,7 +98,7 @@ def test_two_answers_that_must_be_one_may_be_off_by_both_their_errors(off, verdi
 
 
 @catches("an order of convergence that may be off by 0.1 more", order=0.8, verdict=OUTSIDE).at(
-    "validation.judging.solvers.judged.NEXT_TERM", 0.25
+    "validation.judging.solvers.checks.NEXT_TERM", 0.25
 )
 @pytest.mark.parametrize(
     ("order", "verdict"), [(1.0, WITHIN), (0.87, WITHIN), (1.13, WITHIN), (0.8, OUTSIDE), (1.2, OUTSIDE)]
@@ -111,7 +111,7 @@ def test_the_order_of_convergence_is_one_to_the_next_term(order, verdict):
         return np.full((n, n), flat.force * (1 + 0.1 * (12 / n) ** order) / (n * n * math.prod(problem.spacing)))
 
     for cells in (math.inf, 900):
-        (point,) = judged.convergence(SimpleNamespace(by_force=False, cells=cells, pressure=pressure), flat)
+        (point,) = checks.convergence(SimpleNamespace(by_force=False, cells=cells, pressure=pressure), flat)
         assert point.value == pytest.approx(order) and point.verdict == verdict
 
 
@@ -156,23 +156,23 @@ def test_the_worst_of_the_timed_runs_is_judged(monkeypatch):
         calls.append(given)
         return ours(**given) * (1.1 if len(calls) == 2 else 1.0)
 
-    monkeypatch.setattr(judged, "GRIDS", (24,))
-    ((points, times),) = judged.timed(solver(sometimes))
-    assert len(calls) == judged.RUNS and len(times) == 1
+    monkeypatch.setattr(checks, "GRIDS", (24,))
+    ((points, times),) = checks.timed(solver(sometimes))
+    assert len(calls) == checks.RUNS and len(times) == 1
     assert OUTSIDE in {point.verdict for point in points}
 
 
 def test_a_grid_beyond_the_declared_cells_is_not_timed(monkeypatch):
-    monkeypatch.setattr(judged, "GRIDS", (24, 32))
-    assert [time.cells for _, times in judged.timed(solver(ours, cells=600)) for time in times] == [24]
+    monkeypatch.setattr(checks, "GRIDS", (24, 32))
+    assert [time.cells for _, times in checks.timed(solver(ours, cells=600)) for time in times] == [24]
 
 
 @pytest.mark.parametrize(
     ("change", "verdict", "said"),
     [
         (lambda calls, rng: 1.0, WITHIN, ""),
-        (lambda calls, rng: 1 + 0.02 * calls, OUTSIDE, judged.STATE),
-        (lambda calls, rng: 1 + 0.05 * rng.standard_normal(SMALL.gap.shape), OUTSIDE, judged.RANDOM),
+        (lambda calls, rng: 1 + 0.02 * calls, OUTSIDE, checks.STATE),
+        (lambda calls, rng: 1 + 0.05 * rng.standard_normal(SMALL.gap.shape), OUTSIDE, checks.RANDOM),
     ],
 )
 def test_an_answer_is_the_same_when_it_is_asked_for_again(change, verdict, said):
@@ -184,7 +184,7 @@ def test_an_answer_is_the_same_when_it_is_asked_for_again(change, verdict, said)
 
     asked = solver(changing)
     asked.pressure(SMALL)
-    (point,) = judged.repeated(asked)
+    (point,) = checks.repeated(asked)
     assert (point.verdict, point.reason, point.quantity) == (verdict, said, "repeated call")
 
 

@@ -20,7 +20,7 @@ from validation.advice import calibration
 from validation.advice.calibration_scenes import OTHER_SEED, Answers, CalibrationScene, answers_in
 from validation.advice.models import boundary_elements_pressed
 from validation.engine.engine import Engine
-from validation.judging import files_read, own_models
+from validation.judging import own_models, source_files
 from validation.judging.own_kinds import result_of
 from validation.judging.own_models import OwnPart, calibrated, measure_own, models_in
 from validation.railway.models import rail
@@ -207,11 +207,11 @@ def written(folder, half=0.48, square=1.1523):
 
 
 def code_of(visitor):
-    return files_read.digest_of(path for path in visitor.sources if path.suffix == ".py")
+    return source_files.digest_of(path for path in visitor.sources if path.suffix == ".py")
 
 
 @catches("a key without the bytes of a module that the file loads").at(
-    "validation.judging.worker.Visitor.digest", property(lambda visitor: files_read.digest_of([visitor.path]))
+    "validation.judging.worker.Visitor.digest", property(lambda visitor: source_files.digest_of([visitor.path]))
 )
 @catches("a key without the bytes of data that the file reads").at(
     "validation.judging.worker.Visitor.digest", property(code_of)

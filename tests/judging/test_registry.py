@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import validation
-from validation.judging import files_read as installed
+from validation.judging import source_files as installed
 from validation.judging.own_models import named_in
 from validation.judging.registry import KINDS, OfferedError
 from validation.judging.worker import Called

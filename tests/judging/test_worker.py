@@ -8,9 +8,9 @@ import pytest
 
 from tests.engine.toys import HANG
 from validation import stiffness_model, stiffness_of_surface
-from validation.judging import files_read as read_files
-from validation.judging.files_read import digest_of
+from validation.judging import source_files as read_files
 from validation.judging.registry import Failed
+from validation.judging.source_files import digest_of
 from validation.judging.worker import Called, OthersError, Visitor, offered_in, visited
 
 FACE = "from validation import stiffness_model, stiffness_of_surface\n"

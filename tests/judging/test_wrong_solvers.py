@@ -11,13 +11,13 @@ from tests.judging.foreign_solver import periodic as periodic_waves
 from tests.judging.judged_points import NOT_SERVED, WITHIN
 from validation.benchmarks import discrete
 from validation.benchmarks.discrete import STATED
+from validation.judging.judgement_text import solver_lines
 from validation.judging.registry import KINDS, Offered
-from validation.judging.solvers import diagnosis, judged
+from validation.judging.solvers import checks, diagnosis
 from validation.judging.solvers.causes import JudgedContact, causes
+from validation.judging.solvers.checks import findings
 from validation.judging.solvers.factors import numbered
-from validation.judging.solvers.judged import findings
 from validation.judging.solvers.properties import JudgedSolver
-from validation.judging.words import solver_lines
 from validation.judging.worker import Called
 
 FEW = (
@@ -48,10 +48,10 @@ def few_problems(monkeypatch):
     """Small ones, of each kind."""
     stored = {problem.name: problem for problem in discrete.problems()}
     few = tuple(stored[name] for name in FEW)
-    monkeypatch.setattr(judged, "problems", lambda: few)
-    monkeypatch.setattr(judged, "RECTANGLE", ("odd grid",))
-    monkeypatch.setattr(judged, "RECTANGLES", {(15, 11): 1.0})
-    monkeypatch.setattr(judged, "GRIDS", ())
+    monkeypatch.setattr(checks, "problems", lambda: few)
+    monkeypatch.setattr(checks, "RECTANGLE", ("odd grid",))
+    monkeypatch.setattr(checks, "RECTANGLES", {(15, 11): 1.0})
+    monkeypatch.setattr(checks, "GRIDS", ())
     monkeypatch.setattr(diagnosis, "SAMPLE", 8)
 
 
@@ -171,7 +171,7 @@ def test_a_right_solver_is_right_on_all_that_it_serves(name):
 def test_a_solver_of_both_loads_is_judged_by_both(few_problems):
     asks = ("gap", "spacing", "modulus", "periodic", "tolerance", "force", "approach")
     both = Called(Offered("contact_solver", "both", to_force_or_approach, asks, KINDS["contact_solver"].options))
-    points, _ = judged.judged(both)
+    points, _ = checks.judged(both)
     assert [point for point in points if point.verdict != WITHIN] == []
     places = {str(point.where["problem"]) for point in points}
     assert {f"{name}, by approach" for name in FEW} < places and set(FEW) < places
@@ -180,7 +180,7 @@ def test_a_solver_of_both_loads_is_judged_by_both(few_problems):
     def wrong(approach=None, **given):
         return to_force_or_approach(approach=approach, **given) * (1 if approach is None else 1.2)
 
-    points, _ = judged.judged(Called(Offered("contact_solver", "both", wrong, asks, KINDS["contact_solver"].options)))
+    points, _ = checks.judged(Called(Offered("contact_solver", "both", wrong, asks, KINDS["contact_solver"].options)))
     failed = {str(point.where["problem"]) for point in points if point.verdict != WITHIN}
     assert failed and all(name.endswith(", by approach") for name in failed)
 

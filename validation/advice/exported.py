@@ -12,8 +12,8 @@ from validation.advice.compare import Comparison, OneOrSeveral, listed
 from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate
 from validation.advice.tolerance import decibels
-from validation.analysis.contents import as_csv, as_json
-from validation.analysis.evidence import Table
+from validation.analysis.contents import as_csv, as_json, finite_or_none
+from validation.analysis.evidence import Table, table_of
 from validation.scenes.scene import Scene
 
 SCHEMA = 2
@@ -111,8 +111,7 @@ def table_of_several(comparisons: Sequence[Comparison]) -> Table:
             {"quantity": comparison.quantity} if kinds else {}
         )
         rows += [front | row for row in _rows_of_comparison(comparison)]
-    names = dict.fromkeys(name for row in rows for name in row)
-    return Table(comparisons[0].quantity, {name: [row.get(name, math.nan) for row in rows] for name in names})
+    return table_of(comparisons[0].quantity, rows)
 
 
 def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]]:
@@ -173,22 +172,18 @@ def _record_of_model(comparison: Comparison, candidate: Candidate, force: Contac
         "model": candidate.name,
         "is_mdr": candidate.is_mdr,
         "status": candidate.status,
-        "predicted_error": _finite_or_null(candidate.predicted_error),
-        "claimed": _finite_or_null(candidate.predicted_error),
-        "error": _finite_or_null(candidate.error) if solved else None,
-        "cost_s": _finite_or_null(candidate.cost),
+        "predicted_error": finite_or_none(candidate.predicted_error),
+        "claimed": finite_or_none(candidate.predicted_error),
+        "error": finite_or_none(candidate.error) if solved else None,
+        "cost_s": finite_or_none(candidate.cost),
         "reason": candidate.reason,
         "value": _finite_numbers(comparison.value_of(candidate)) if solved else None,
-        "seconds": _finite_or_null(comparison.seconds_of(candidate)),
-        "force_sum_dBA": _finite_or_null(force.total(candidate.name))
+        "seconds": finite_or_none(comparison.seconds_of(candidate)),
+        "force_sum_dBA": finite_or_none(force.total(candidate.name))
         if force and candidate.name in force.levels
         else None,
     }
 
 
 def _finite_numbers(values: Iterable[float]) -> list[float | None]:
-    return [_finite_or_null(value) for value in values]
-
-
-def _finite_or_null(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
+    return [finite_or_none(value) for value in values]

@@ -50,6 +50,11 @@ def as_json(value: object) -> bytes:
     return (_nested(value, LEVELS) + "\n").encode()
 
 
+def finite_or_none(value: float) -> float | None:
+    """JSON has neither NaN nor infinity."""
+    return float(value) if math.isfinite(value) else None
+
+
 def _nested(value: object, levels: int) -> str:
     if not levels or not value or not isinstance(value, dict | list | tuple):
         return json_text(value)

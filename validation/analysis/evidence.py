@@ -1,5 +1,6 @@
 """Evidence: numbers with a reference, a tolerance, an error bar and a verdict; tables behind figures; conclusions."""
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -64,7 +65,7 @@ class Number:
     @property
     def conditions(self) -> str:
         """The last part of its key: "h/d = 0.1, low band"."""
-        return ", ".join(_placed(name, value) for name, value in self.where.items())
+        return where_text(self.where)
 
     @property
     def difference(self) -> float:
@@ -124,6 +125,11 @@ def number_with(
     return matching[0]
 
 
+def where_text(where: Mapping[str, Place]) -> str:
+    """ "h/d = 0.1, low band": values by their names, a region by itself."""
+    return ", ".join(_placed(name, value) for name, value in where.items())
+
+
 def _placed(name: str, value: Place) -> str:
     if isinstance(value, str):
         return value
@@ -179,8 +185,9 @@ class Table:
 
 
 def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
-    """Of rows with the same columns, one at least."""
-    return Table(name, {column: [row[column] for row in rows] for column in rows[0]})
+    """Of one row at least; the columns of all, NaN where a row has no such cell."""
+    columns = dict.fromkeys(column for row in rows for column in row)
+    return Table(name, {column: [row.get(column, math.nan) for row in rows] for column in columns})
 
 
 Columns = Mapping[str, Callable[[Table], object]]

@@ -8,9 +8,9 @@ from validation.advice.commands.calibrate import SCRIPT
 from validation.advice.commands.compare import STORE
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
-from validation.judging.files_read import is_installed
 from validation.judging.kinds.from_report import references_of
 from validation.judging.own_models import calibrated, models_in
+from validation.judging.source_files import is_installed
 from validation.report.commands.arguments import Exit, not_beside
 from validation.report.folder import REALISATIONS, REFERENCES, Folder
 from validation.scenes.printable import printable

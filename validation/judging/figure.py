@@ -9,9 +9,9 @@ import matplotlib
 
 from validation.advice.tolerance import decibels
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.evidence import Evidence, Table, table_of
+from validation.analysis.evidence import Evidence, Table, table_of, where_text
 from validation.analysis.series import ENDS
-from validation.judging.judgement import LEVEL, Conditions, JudgedSeries, conditions_text, series_of
+from validation.judging.judgement import LEVEL, Conditions, JudgedSeries, series_of
 from validation.judging.kinds.own import MAIN
 from validation.report.drawing import draw
 from validation.report.style import FORMATS, SETTINGS, in_two_lines, picture, plain_figure
@@ -83,7 +83,7 @@ def _panels_of_curves(
     count = -(-len(curves) // CURVES)
     size = -(-len(curves) // count)
     for i in range(count):
-        subtitle = filter(None, (conditions_text(common), f"{i + 1} of {count}" if count > 1 else ""))
+        subtitle = filter(None, (where_text(common), f"{i + 1} of {count}" if count > 1 else ""))
         yield _deviation_panel(judgement, curves[size * i : size * (i + 1)], ", ".join(subtitle))
 
 
@@ -103,7 +103,7 @@ def _deviation_panel(judgement: "Judgement", curves: Sequence[JudgedSeries], sub
     y = "deviation from the reference [dB]" if is_level else "relative deviation from the reference [%]"
     rows = [
         {
-            "model": conditions_text(dict(list(curve.where.items())[-1:])),
+            "model": where_text(dict(list(curve.where.items())[-1:])),
             first.along: x,
             **_ends(factor * number.difference, factor * number.error),
         }

@@ -3,38 +3,36 @@
 import math
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 from validation.advice.tolerance import Tolerance, tolerance_of
-from validation.analysis.contents import as_csv, as_json, condition_key, conditions_in_json
-from validation.analysis.evidence import Table, table_of
+from validation.analysis.contents import as_csv, as_json, condition_key, conditions_in_json, finite_or_none
+from validation.analysis.evidence import table_of
 from validation.analysis.verdict import Verdict
 from validation.judging.judgement import (
     WITHOUT_NUMBER,
     Conditions,
     JudgedNumber,
     JudgedRange,
+    SolverTime,
     missing_number,
     ranges_of,
     trusted_numbers,
 )
+from validation.judging.judgement_text import solver_lines, summary_lines
 from validation.judging.kinds.diagnosis import Remark, remarks
 from validation.judging.kinds.judge import JUDGES, points_of
 from validation.judging.kinds.own import ErrorOfCall, costs_of
 from validation.judging.replies import raised
-from validation.judging.words import solver_lines, summary_lines
 from validation.judging.worker import Called, visited
 from validation.report.folder import JUDGEMENT, Folder
 from validation.scenes.printable import printable
 
-if TYPE_CHECKING:
-    from validation.judging.solvers.judged import SolverTime
-
-OF_SOLVER = "validation.judging.solvers.judged:judged"
+OF_SOLVER = "validation.judging.solvers.checks:judged"
 """Of a contact solver; it imports all solvers."""
 BROKEN = "mdr-validation could not go on, which is its own error"
 RETURNED = "a process that it forked came back from the function: its answers were left out"
@@ -80,7 +78,7 @@ class Judgement:
     tolerance: Tolerance
     numbers: tuple[JudgedNumber, ...]
     seconds: float
-    times: "tuple[SolverTime, ...]" = ()
+    times: tuple[SolverTime, ...] = ()
     costs: tuple[ErrorOfCall, ...] = ()
 
     @property
@@ -130,15 +128,14 @@ class Judgement:
         Rows under "verdicts" have `outcome`, and `conditions` with snake_case names; for one release also `verdict` and
         `where` as in schema 1. Ranges are under "ranges", and for one release as in schema 1 under "enough".
         """
-        ranges = self.ranges
         return {
             "schema_version": SCHEMA,
             "model": self.model,
             "kind": self.kind,
             "tolerance": self.tolerance.relative,
-            "verdicts": [_number_in_json(number) for number in self.numbers],
-            "ranges": [_range_in_json(part) for part in ranges],
-            "enough": [_range_in_schema_1(part) for part in ranges],
+            "verdicts": [_in_json(_row(number)) for number in self.numbers],
+            "ranges": [_in_json(_range_row(part)) for part in self.ranges],
+            "enough": [_in_json(_range_row(part, schema=1)) for part in self.ranges],
             "remarks": [remark._asdict() for remark in self.remarks],
             "seconds": round(self.seconds, 3),
             **({"times": [time._asdict() for time in self.times]} if self.times else {}),
@@ -251,52 +248,40 @@ def judged(model: Called, tolerance: Tolerance) -> Judgement:
 def numbers_as_csv(judgements: Sequence[Judgement]) -> bytes:
     """A row a number of each model; a condition that a number does not have is left empty."""
     rows = [
-        {"model": judgement.model, "quantity": number.quantity, **conditions_in_json(number.where)} | _cells(number)
+        {"model": judgement.model, "quantity": row["quantity"], **row["conditions"]} | {n: row[n] for n in CSV_COLUMNS}
         for judgement in judgements
-        for number in judgement.numbers
+        for row in map(_row, judgement.numbers)
     ]
-    names = sorted(dict.fromkeys(name for row in rows for name in row), key=CSV_COLUMNS.__contains__)
-    return as_csv(Table("verdicts", {name: [row.get(name, math.nan) for row in rows] for name in names}))
+    table = table_of("verdicts", rows)
+    names = sorted(table.columns, key=CSV_COLUMNS.__contains__)
+    return as_csv(replace(table, columns={name: table.columns[name] for name in names}))
 
 
-def _cells(number: JudgedNumber) -> dict[str, object]:
-    """Of a row of CSV: value, reference and deviation, then the verdict with its reason."""
-    values = {name: getattr(number, name) for name in VALUES}
-    return {**values, "outcome": str(number.verdict), "reason": number.reason}
-
-
-def _number_in_json(number: JudgedNumber) -> dict[str, object]:
-    """A row of "verdicts", with the keys of schema 1 beside those of schema 2."""
+def _row(number: JudgedNumber) -> dict[str, Any]:
+    """Of the table of numbers in CSV and JSON; the latter has the keys `where` and `verdict` of schema 1 as well."""
     return {
         "quantity": number.quantity,
         "where": dict(number.where),
         "conditions": conditions_in_json(number.where),
-        **{name: _finite(getattr(number, name)) for name in VALUES},
+        **{name: getattr(number, name) for name in VALUES},
         "verdict": number.verdict.earlier,
         "outcome": str(number.verdict),
         "reason": number.reason,
     }
 
 
-def _range_in_json(part: JudgedRange) -> dict[str, object]:
-    return {
-        "quantity": part.quantity,
-        "conditions": conditions_in_json(part.where),
-        "along": condition_key(part.along),
-        "from": _finite(part.start),
-        "to": _finite(part.stop),
-        "outcome": str(part.verdict),
-    }
+def _range_row(part: JudgedRange, *, schema: int = SCHEMA) -> dict[str, Any]:
+    """Of the ranges in JSON."""
+    if schema == 1:
+        where, verdict = {"where": dict(part.where), "along": part.along}, {"verdict": part.verdict.earlier}
+    else:
+        where = {"conditions": conditions_in_json(part.where), "along": condition_key(part.along)}
+        verdict = {"outcome": str(part.verdict)}
+    return {"quantity": part.quantity, **where, "from": part.start, "to": part.stop, **verdict}
 
 
-def _range_in_schema_1(part: JudgedRange) -> dict[str, object]:
-    earlier = {"where": dict(part.where), "along": part.along, "from": _finite(part.start), "to": _finite(part.stop)}
-    return {"quantity": part.quantity, **earlier, "verdict": part.verdict.earlier}
-
-
-def _finite(value: float | str) -> float | str | None:
-    """JSON has neither NaN nor infinity."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+def _in_json(row: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: finite_or_none(cell) if isinstance(cell, float) else cell for name, cell in row.items()}
 
 
 def _with_earlier_verdict(row: Row) -> Row:

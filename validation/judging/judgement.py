@@ -1,12 +1,14 @@
-"""Numbers of a model relative to their references, the verdict of each, and the ranges of equal verdict."""
+"""Numbers of a model relative to their references, the verdict of each, and what they say together, as fields."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
+from typing import NamedTuple, TypeVar
 
-from validation.analysis.evidence import Number, Role
+from validation.advice.tolerance import decibels
+from validation.analysis.evidence import Number, Role, where_text
 from validation.analysis.number_text import deviation_text
 from validation.analysis.ranges import VerdictRange, verdict_ranges
 from validation.analysis.verdict import Verdict, verdict_of
@@ -22,6 +24,8 @@ WITHOUT_NUMBER = (Verdict.NOT_SERVED, Verdict.NO_RESULT)
 ROUNDING = 1e-9
 """Relative to the tolerance: a level that a closed form gives differs in its last digits."""
 Conditions = Mapping[str, float | str]
+Item = TypeVar("Item")
+Key = TypeVar("Key", bound=Hashable)
 
 
 @dataclass(frozen=True)
@@ -106,11 +110,6 @@ class JudgedNumber:
         )
 
 
-def conditions_text(where: Conditions) -> str:
-    """ "H = 0.4, Fbar = 0.1"; a name stands for itself."""
-    return ", ".join(f"{name} = {value:g}" if isinstance(value, float) else str(value) for name, value in where.items())
-
-
 def judged_number(
     quantity: str,
     where: Conditions,
@@ -131,7 +130,7 @@ def judged_number(
     """
     difference, error_of_half_width = value / reference - 1, abs(value / reference)
     if unit == LEVEL:
-        difference, error_of_half_width, tolerance = value - reference, 1.0, 20 * math.log10(1 + tolerance)
+        difference, error_of_half_width, tolerance = value - reference, 1.0, decibels(tolerance)
     elif unit == DEVIATION and reference < SMALL:
         difference, error_of_half_width = (value - reference) / SMALL, max(value, reference) / SMALL
         reason = reason or "below 1 %: the absolute difference, in parts of 1 %"
@@ -177,6 +176,14 @@ def trusted_numbers(numbers: Sequence[JudgedNumber]) -> list[JudgedNumber]:
         else number
         for number in numbers
     ]
+
+
+class SolverTime(NamedTuple):
+    """Seconds of a solver and of `bem3d` on one grid, of so many cells on a side: neither right nor wrong."""
+
+    cells: float
+    seconds: float
+    bem3d: float
 
 
 @dataclass(frozen=True)
@@ -241,11 +248,17 @@ class JudgedSeries:
         ]
 
 
+def groups_of(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
+    """Items under each key, both in their order."""
+    groups: dict[Key, list[Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
+
+
 def series_of(numbers: Iterable[JudgedNumber]) -> list[list[JudgedSeries]]:
     """A list a quantity, in the order of the numbers."""
-    groups: dict[tuple[str, ...], list[JudgedNumber]] = {}
-    for number in numbers:
-        groups.setdefault((number.quantity, *sorted(number.where)), []).append(number)
+    groups = groups_of(numbers, lambda number: (number.quantity, *sorted(number.where)))
     series = [part for group in groups.values() for part in _series(group)]
     return [list(of_quantity) for _, of_quantity in groupby(series, attrgetter("quantity"))]
 
@@ -254,19 +267,75 @@ def _series(numbers: Sequence[JudgedNumber]) -> Iterator[JudgedSeries]:
     """Numbers of one quantity with the same names of conditions: the one with most values is the parameter."""
     names = [name for name, value in numbers[0].where.items() if not isinstance(value, str)]
     along = max(names, key=lambda name: len({number.where[name] for number in numbers}), default="")
-    groups: dict[str, list[JudgedNumber]] = {}
-    for number in numbers:
-        key = conditions_text({name: value for name, value in number.where.items() if name != along})
-        groups.setdefault(key, []).append(number)
-    for group in groups.values():
+
+    def rest_of(number: JudgedNumber) -> Conditions:
+        return {name: value for name, value in number.where.items() if name != along}
+
+    for group in groups_of(numbers, lambda number: where_text(rest_of(number))).values():
         ordered = sorted(group, key=lambda number: float(number.where.get(along, 0.0)))
-        where = {name: value for name, value in ordered[0].where.items() if name != along}
-        yield JudgedSeries(numbers[0].quantity, where, along, ordered)
+        yield JudgedSeries(numbers[0].quantity, rest_of(ordered[0]), along, ordered)
 
 
 def ranges_of(numbers: Iterable[JudgedNumber]) -> list[JudgedRange]:
     """Of all series of these numbers."""
     return [part for of_quantity in series_of(numbers) for series in of_quantity for part in series.ranges]
+
+
+def counts_of(numbers: Sequence[JudgedNumber]) -> dict[Verdict, int]:
+    """Of each verdict that there is, how many numbers have it."""
+    counts = {verdict: sum(number.verdict is verdict for number in numbers) for verdict in Verdict}
+    return {verdict: count for verdict, count in counts.items() if count}
+
+
+Ranges = tuple[tuple[float, float], ...]
+"""Both ends of each."""
+
+
+@dataclass(frozen=True)
+class WithinRanges:
+    """Where a quantity is within tolerance in all of its series.
+
+    Attributes
+    ----------
+    values : Mapping
+        Under each set of ranges of the parameter the values of ``by`` that have it; empty where there is none.
+    by : str
+        A numeric condition; empty where the ranges are those of all series.
+    every, numeric : sequence of str
+        Other conditions under each of whose values the ranges hold, and which of these are numbers.
+    """
+
+    values: Mapping[Ranges, Sequence[float | str]]
+    by: str
+    every: Sequence[str]
+    numeric: Sequence[str]
+
+
+def within_ranges(series: Sequence[JudgedSeries]) -> WithinRanges:
+    """Of all series; where these have no range in common, by the last numeric condition in which they differ."""
+    varied = [name for name in series[0].where if len({part.where[name] for part in series}) > 1]
+    numeric = [name for name in varied if any(isinstance(part.where[name], float) for part in series)]
+    if (ranges := _common_ranges(series, numeric)) or not numeric:
+        return WithinRanges({ranges: ()} if ranges else {}, "", varied, numeric)
+    *numeric, by = numeric
+    groups = groups_of(series, lambda part: part.where[by])
+    ranges_of_value = {value: _common_ranges(group, numeric) for value, group in groups.items()}
+    values = groups_of((value for value, ranges in ranges_of_value.items() if ranges), ranges_of_value.__getitem__)
+    return WithinRanges(values, by, [name for name in varied if name != by], numeric)
+
+
+def _common_ranges(series: Sequence[JudgedSeries], numeric: Sequence[str]) -> Ranges:
+    """Those that are within tolerance in all of these series.
+
+    A range ends where the series of a value of the numeric conditions have no reference.
+    """
+    pairs = [pair for part in series for pair in zip(part.at, part.numbers, strict=True)]
+    groups = groups_of(series, lambda part: tuple(part.where[name] for name in numeric)).values()
+    within = set.intersection(*({place for part in group for place in part.at} for group in groups))
+    within -= {place for place, number in pairs if number.verdict is not Verdict.WITHIN}
+    places = sorted({place for place, _ in pairs})
+    parts = verdict_ranges(places, [Verdict.WITHIN if x in within else Verdict.INCONCLUSIVE for x in places])
+    return tuple((part.start, part.stop) for part in parts if part.verdict is Verdict.WITHIN)
 
 
 def largest_deviations(numbers: Iterable[JudgedNumber], count: int = 5) -> list[JudgedNumber]:
@@ -292,7 +361,7 @@ def common_condition(part: Sequence[JudgedNumber], numbers: Sequence[JudgedNumbe
         of_part = [number.where.get(name) for number in part]
         of_all = [number.where[name] for number in numbers if name in number.where]
         if len(set(of_part)) == 1 and len(set(of_all)) > 1:
-            texts.append(conditions_text({name: part[0].where[name]}))
+            texts.append(where_text({name: part[0].where[name]}))
         elif all(isinstance(value, float) for value in (*of_part, *of_all)):
             values, ordered = [float(value) for value in of_part if value is not None], sorted(map(float, of_all))
             if max(values) < ordered[len(ordered) // 2]:

@@ -24,7 +24,7 @@ class ModelsFrom:
     @staticmethod
     def check(name: str) -> None:
         """Raises ValueError for neither."""
-        from validation.judging.files_read import is_installed
+        from validation.judging.source_files import is_installed
 
         if not Path(name).is_file() and not is_installed(name):
             expected = "a Python file, or a name of `judge --list`"

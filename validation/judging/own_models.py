@@ -30,10 +30,10 @@ from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene, G
 from validation.benchmarks.discrete import ContactProblem
 from validation.benchmarks.peers import TIGHTER, ColdSolve, Field, PeerSolver
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
-from validation.judging.files_read import digest_of, file_of, sources_of
 from validation.judging.own_kinds import CALIBRATED, SERVED, SURFACES, filter_of, result_of
 from validation.judging.registry import KINDS, Offered, offer
 from validation.judging.replies import raised
+from validation.judging.source_files import digest_of, file_of, sources_of
 from validation.judging.worker import Called, OthersError, Visitor, offered_in
 from validation.scenes.load import load_scene
 from validation.scenes.printable import quoted

@@ -20,8 +20,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from validation.judging.files_read import ENTRY
 from validation.judging.registry import KINDS, Failed, FloatArray, Offered, OfferedError, Shape
+from validation.judging.source_files import ENTRY
 
 PLAIN = (bool, int, float, complex, str, bytes, type(None), types.FunctionType, types.BuiltinFunctionType, type)
 """Values that cannot be changed, or that a copy would share."""

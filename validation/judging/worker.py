@@ -15,9 +15,9 @@ from typing import Any
 
 from validation.engine.workers import ONE_THREAD
 from validation.judging.channel import Channel, ForeignBytesError
-from validation.judging.files_read import digest_of_all, digest_of_bytes, file_of, in_order
 from validation.judging.registry import KINDS, Caller, Failed, FloatArray, Offered
 from validation.judging.replies import SHOWN, Reply, called, has_forked, number
+from validation.judging.source_files import digest_of_all, digest_of_bytes, file_of, in_order
 from validation.judging.worker_main import MUTE, SERVING
 from validation.judging.worker_main import OthersError as OthersError
 

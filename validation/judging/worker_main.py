@@ -15,9 +15,9 @@ from typing import IO
 
 from validation.engine.workers import end_after
 from validation.judging.channel import Channel
-from validation.judging.files_read import OPENED, sources_of, watch_opened
 from validation.judging.registry import DECORATED, KINDS, Offered
 from validation.judging.replies import SHOWN, called, has_forked, raised
+from validation.judging.source_files import OPENED, sources_of, watch_opened
 
 SERVING: list[Path] = []
 """The file whose functions this process has, where it is the other one."""

@@ -10,8 +10,8 @@ from pathlib import Path
 from validation.advice.tolerance import tolerance_of
 from validation.analysis.contents import as_json, folder_names
 from validation.engine.files import write_output
-from validation.judging.files_read import GROUP, installed
 from validation.judging.judge import Judgement, judged, numbers_as_csv
+from validation.judging.source_files import GROUP, installed
 from validation.judging.worker import Called, visited
 from validation.report.commands.arguments import Exit, add_options, check_places
 from validation.report.folder import JUDGEMENT, Folder

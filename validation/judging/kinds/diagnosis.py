@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from validation.analysis.evidence import where_text
 from validation.analysis.statistics import FloatArray
 from validation.analysis.verdict import Verdict
 from validation.judging.judgement import (
@@ -15,7 +16,6 @@ from validation.judging.judgement import (
     WITHOUT_NUMBER,
     Conditions,
     JudgedNumber,
-    conditions_text,
 )
 from validation.judging.kinds.filters import ALPHA, FILTER, WAVE
 from validation.judging.kinds.held_out_solves import SUFFIX
@@ -200,7 +200,7 @@ def _scenes(points: Sequence[JudgedNumber]) -> dict[str, list[JudgedNumber]]:
         # a mean over a strip shows little of a model
         if point.quantity.endswith(SUFFIX) and point.quantity.removesuffix(SUFFIX) not in (MEAN, "mean approach"):
             where = {name: value for name, value in point.where.items() if name not in ALONG}
-            scenes.setdefault(conditions_text(where), []).append(point)
+            scenes.setdefault(where_text(where), []).append(point)
     return scenes
 
 

@@ -1,6 +1,6 @@
 """The force of a wheel that rolls, of others, beside boundary elements: its spectrum, or its value at each position.
 
-All is compared relative to the force of Hertz; wheels and roughness beside those of the table are in `held_out`.
+All is compared relative to the force of Hertz; wheels and roughness beside those of the table are in `held_out_points`.
 """
 
 import math

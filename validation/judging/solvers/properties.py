@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from itertools import pairwise
 
 import numpy as np
@@ -22,6 +23,18 @@ PARTS = (0.3, 0.6, 1.0)
 
 
 Way = Callable[[FloatArray], FloatArray]
+
+
+class Symptom(StrEnum):
+    """Reasons of a wrong number that name what is measured, and no cause."""
+
+    CONDITION = "above the residual that it names"
+    ANSWER = "a deviation above what its residual allows"
+    FORCE = "force not held"
+    PRESSURE = "the pressure is another one"
+    AREA = "the contact shrinks under more load"
+    STIFFNESS = "it falls under more load"
+    ORDER = "the error does not fall with the cell size"
 
 
 LOADS = ("force", "approach")
@@ -128,7 +141,7 @@ def relative_deviation(values: FloatArray, reference: FloatArray) -> float:
     return float(np.linalg.norm(values - reference)) / norm if norm else math.inf
 
 
-LEFT = {"force balance": "force not held", "tension": "negative pressures: p >= 0 is not held"}
+LEFT = {"force balance": Symptom.FORCE, "tension": "negative pressures: p >= 0 is not held"}
 """What is said of a condition that is left."""
 
 
@@ -137,7 +150,7 @@ def conditions(solver: JudgedSolver, problem: ContactProblem) -> Iterator[Judged
     left, _ = problem.residuals_and_approach(solver.pressure(problem), solver.by_force)
     solver.judged["", problem.name] = problem
     for name, value in left.items():
-        yield checked(name, problem, value, solver.residual, LEFT.get(name, "above the residual that it names"))
+        yield checked(name, problem, value, solver.residual, LEFT.get(name, Symptom.CONDITION))
 
 
 def rescaled(
@@ -190,7 +203,7 @@ class Same:
         if problem.periodic in self.served:
             other = solver.judged[self.quantity, problem.name] = self.other(problem)
             off = relative_deviation(self.back(solver.pressure(other)), solver.pressure(self.first(problem)))
-            yield checked(self.quantity, problem, off, 2 * solver.of_answer, "the pressure is another one")
+            yield checked(self.quantity, problem, off, 2 * solver.of_answer, Symptom.PRESSURE)
 
 
 SAME = (
@@ -210,7 +223,7 @@ def monotone(solver: JudgedSolver, problem: ContactProblem) -> Iterator[JudgedNu
     steps = [loaded(problem, part) for part in PARTS]
     pressures = [solver.pressure(step) for step in steps]
     lost = max(float(before[after <= 0].sum() / before.sum()) for before, after in pairwise(pressures))
-    yield checked("monotone area", problem, lost, SINGLE_CELLS, "the contact shrinks under more load")
+    yield checked("monotone area", problem, lost, SINGLE_CELLS, Symptom.AREA)
     force = np.array([step.force_of(p) for step, p in zip(steps, pressures, strict=True)])
     approach = np.array(
         [step.residuals_and_approach(p, solver.by_force)[1] for step, p in zip(steps, pressures, strict=True)]
@@ -219,7 +232,7 @@ def monotone(solver: JudgedSolver, problem: ContactProblem) -> Iterator[JudgedNu
     with np.errstate(all="ignore"):  # the same pressure under every load
         first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())
     fall = max(second - first, -first, -second, 0.0)
-    yield checked("monotone stiffness", problem, fall, solver.of_answer, "it falls under more load")
+    yield checked("monotone stiffness", problem, fall, solver.of_answer, Symptom.STIFFNESS)
 
 
 def served(has: "Property") -> tuple[bool, ...]:

@@ -7,20 +7,20 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise, product
-from typing import NamedTuple
 
 import numpy as np
 
 from validation.analysis.verdict import Verdict
 from validation.benchmarks.discrete import STATED, ContactProblem, KnownContact, pressed, problems
 from validation.benchmarks.timing import timed as clocked
-from validation.judging.judgement import JudgedNumber, missing_number
+from validation.judging.judgement import JudgedNumber, SolverTime, missing_number
 from validation.judging.registry import Caller, FloatArray
 from validation.judging.solvers.causes import JudgedContact
 from validation.judging.solvers.diagnosis import LOOSE, diagnosed
 from validation.judging.solvers.properties import (
     PROPERTIES,
     JudgedSolver,
+    Symptom,
     UnansweredError,
     checked,
     conditions,
@@ -38,18 +38,10 @@ FLAT, NEXT_TERM = "flat", 0.15
 """Of the order: the next term, of order 1.5 at the edge, changes it on coarse grids."""
 COARSEST, FINEST = 12, (48, 24)
 """Cells on a side of a flat punch; the latter of a solver that serves fewer."""
-OFF, NO_CAUSE = "a deviation above what its residual allows", "not the answer of any half-space"
+NO_CAUSE = "not the answer of any half-space"
 MEASURED = ("monotone area", "monotone stiffness", "order of convergence")
 """Properties of several answers: their reasons are what is measured."""
 RANDOM, STATE = "each call gives another answer: random numbers", "the answer depends on earlier calls"
-
-
-class SolverTime(NamedTuple):
-    """Seconds of a solver and of `bem3d` on one grid, of so many cells on a side: neither right nor wrong."""
-
-    cells: float
-    seconds: float
-    bem3d: float
 
 
 def judged(model: Caller) -> tuple[list[JudgedNumber], list[SolverTime]]:
@@ -129,11 +121,13 @@ def answer(solver: JudgedSolver, problem: KnownContact) -> Iterator[JudgedNumber
         _, approach = problem.residuals_and_approach(p, solver.by_force)
         off = (approach - problem.approach) / problem.overlap
         yield replace(
-            checked("approach", problem, off, solver.of_answer, OFF), value=approach, reference=problem.approach
+            checked("approach", problem, off, solver.of_answer, Symptom.ANSWER),
+            value=approach,
+            reference=problem.approach,
         )
     else:
-        yield checked("force", problem, problem.force_of(p), solver.of_answer, OFF, problem.force)
-    yield checked("pressure", problem, relative_deviation(p, problem.pressure), solver.of_answer, OFF)
+        yield checked("force", problem, problem.force_of(p), solver.of_answer, Symptom.ANSWER, problem.force)
+    yield checked("pressure", problem, relative_deviation(p, problem.pressure), solver.of_answer, Symptom.ANSWER)
 
 
 def repeated(solver: JudgedSolver) -> Iterator[JudgedNumber]:
@@ -199,7 +193,7 @@ def convergence(solver: JudgedSolver, flat: KnownContact) -> Iterator[JudgedNumb
         )
         errors.append(abs(value - 1))
     order = math.log(errors[0] / errors[1]) / math.log(finest / COARSEST) if min(errors) > 0 else math.nan
-    yield checked("order of convergence", flat, order, NEXT_TERM, "the error does not fall with the cell size", 1.0)
+    yield checked("order of convergence", flat, order, NEXT_TERM, Symptom.ORDER, 1.0)
 
 
 def timed(solver: JudgedSolver) -> Iterator[tuple[list[JudgedNumber], list[SolverTime]]]:
