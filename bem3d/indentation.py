@@ -20,7 +20,7 @@ from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 from bem3d.window_solve import InitialGuess
 
 STIFFNESS_TOLERANCE = 1e-4
-"""Relative residual of the frozen contacts: their stiffness is good to some tens of times its square."""
+"""Relative residual of the frozen contacts, unless another is given."""
 
 
 def indent(
@@ -30,6 +30,7 @@ def indent(
     approaches: Loads | None = None,
     forces: Loads | None = None,
     stiffness: bool = False,
+    stiffness_tolerance: float = STIFFNESS_TOLERANCE,
     indenter_ends_at_edge: bool = False,
     tolerance: float = 1e-6,
     max_iterations: int = 500,
@@ -45,8 +46,11 @@ def indent(
     approaches, forces : sequence of float, optional
         Either approaches [m] or forces [N], in the order of the path.
     stiffness : bool, optional
-        Whether each contact stores its ``frozen`` contact area, whose stiffness is good to about 1e-7. It costs about
-        half as many operator applications as the contact itself, and saves a few of the next one's.
+        Whether each contact stores its ``frozen`` contact area. It costs about half as many operator applications as
+        the contact itself, and saves a few of the next one's.
+    stiffness_tolerance : float, optional
+        Relative residual of the frozen contact areas, in (0, 1). The relative error of a stiffness is some tens of
+        times its square: about 1e-7 by default.
     indenter_ends_at_edge, tolerance, max_iterations, raise_on_failure
         As in `solve`.
     progress : bool or callable, optional
@@ -80,7 +84,8 @@ def indent(
     """
     problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
-    return _path(problems, stiffness, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
+    of_stiffness = fraction("stiffness_tolerance", stiffness_tolerance) if stiffness else None
+    return _path(problems, of_stiffness, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
 
 
 def _problems(
@@ -108,7 +113,7 @@ def _problems(
 
 def _path(
     problems: list[Problem],
-    stiffness: bool,
+    stiffness_tolerance: float | None,
     tolerance: float,
     max_iterations: int,
     raise_on_failure: bool,
@@ -121,12 +126,12 @@ def _path(
         contact = solve_checked(problem, _predicted(problem, past), tolerance, max_iterations)
         if raise_on_failure:
             raise_if_failed(contact)
-        if stiffness and contact.converged:
+        if stiffness_tolerance is not None and contact.converged:
             frozen = solve_fixed_area(
                 problem.half_space,
                 contact.pressure > 0,
                 start=None if frozen is None else frozen.pressure,
-                tolerance=STIFFNESS_TOLERANCE,
+                tolerance=stiffness_tolerance,
                 max_iterations=max_iterations,
                 raise_on_failure=raise_on_failure,
             )

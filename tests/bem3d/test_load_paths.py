@@ -114,3 +114,32 @@ def test_a_stiffness_that_was_brought_along_is_not_solved_for_again(monkeypatch)
     with pytest.raises(NameError):
         contact.stiffness(tolerance=brought / 2)
     assert finer == pytest.approx(contact.frozen.stiffness, rel=1e-6)
+
+
+FORCES = [0.3, 1.0, 3.0]
+
+
+def stiffness_and_applications(tolerance):
+    """Of each load, with contacts that are far more exact than their frozen ones."""
+    path = bem3d.indent(BODY, GAP, forces=FORCES, stiffness=True, stiffness_tolerance=tolerance, tolerance=1e-10)
+    return zip(*((contact.stiffness(), contact.frozen.operator_applications) for contact in path), strict=True)
+
+
+@catches("frozen contacts that keep their own tolerance").at(
+    "bem3d.indentation.solve_fixed_area",
+    lambda *arguments, tolerance, **others: solve_fixed_area(*arguments, tolerance=1e-4, **others),
+)
+def test_the_error_of_a_stiffness_is_some_tens_of_times_the_square_of_its_tolerance():
+    exact, _ = map(np.array, stiffness_and_applications(1e-9))
+    errors, applications = [], []
+    for tolerance in (1e-1, 1e-2, 1e-3, 1e-4):
+        stiffness, used = map(np.array, stiffness_and_applications(tolerance))
+        errors.append(np.abs(stiffness / exact - 1).max() / tolerance**2)
+        applications.append(used.sum())
+    assert max(errors) < 50
+    assert applications == sorted(set(applications))
+
+
+def test_a_stiffness_tolerance_is_a_fraction():
+    with pytest.raises(ValueError, match="stiffness_tolerance must lie between 0 and 1, both excluded, got 0"):
+        bem3d.indent(BODY, GAP, forces=FORCES, stiffness=True, stiffness_tolerance=0.0)
