@@ -10,11 +10,11 @@ import validation
 from tests.advice.planted_answers import Fake, Finding, punch
 from validation.__main__ import main
 from validation.advice.advice import in_full
-from validation.advice.columns import label
 from validation.advice.compare import Comparison, SceneProblem
 from validation.advice.contact_force import LEVELS
 from validation.advice.hierarchy import select_model
 from validation.advice.page import PAGE, files_of_comparison
+from validation.advice.summary import label
 
 ABOUT = dict.fromkeys(("version", "commit", "python", "system"), "0") | {"libraries": {}, "seeds": {"compare": 0}}
 
@@ -39,7 +39,7 @@ def test_the_page_has_scene_answer_claims_and_costs():
     text = text_of(files[PAGE])
     for said in ("Rolling wheel: force-spectrum within 3 dB", "contact radius a 1.982 mm", "✓ tolerance met"):
         assert said in text
-    assert all(label(one) in text and one.reason in text for one in found.models)
+    assert all(label(one.name, is_mdr=one.is_mdr) in text and one.reason in text for one in found.models)
     assert all(sentence in text for sentence in in_full(found))
     assert files["figures/scene-1.svg"].startswith(b"<?xml") and files["figures/scene-1.pdf"].startswith(b"%PDF")
     assert files["comparison.json"].decode() == validation.to_json(found)

@@ -19,12 +19,11 @@ from tests.advice.planted_answers import PARTS, ROUGH, Fake, Finding, compared, 
 from tests.seeded import Times, catches, module_with
 from validation.advice import calibration_scenes
 from validation.advice.cases.random_scenes import KINDS, random_scene
-from validation.advice.columns import bands_of
 from validation.advice.compare import compare
 from validation.advice.hierarchy import needed, select_model
 from validation.advice.models import boundary_elements_pressed
 from validation.advice.quantities import all_quantities, models_of, quantities_of
-from validation.advice.summary import summary
+from validation.advice.summary import bands_of, summary
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
@@ -476,7 +475,7 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     found = compared(Finding(value=tuple(levels), parts=PARTS), scene=scene, quantity=quantity)
     # 20 lg 1.1202 = 0.99 dB
     assert "± 12 % (0.99 dB) over all bands: model 10 %, grid 2 %, sample 0.3 %" in " ".join(summary(found).split())
-    columns = bands_of(found, found.selection.best)
+    columns = bands_of(found, found.model)
     assert list(columns)[-2:] == [f"level [dB re 1 {unit}]", "± [dB]"]
     wave, frequency, nominal, turns, rms, decibels, half = (np.array(cells, dtype=float) for cells in columns.values())
     assert wave == pytest.approx(2e3 * math.pi / centres, rel=1e-3)

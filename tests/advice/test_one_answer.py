@@ -15,13 +15,12 @@ from tests.advice.planted_answers import Fake, Finding, compared, planted, punch
 from tests.seeded import catches
 from validation.advice import advice
 from validation.advice import advice as on_mdr
-from validation.advice.columns import overview_of
 from validation.advice.compare import Comparison, SceneProblem
 from validation.advice.exported import to_csv
 from validation.advice.hierarchy import ALIKE, Candidate, contradict
 from validation.advice.quantities import models_of, quantities_of
 from validation.advice.scene_model import Answer
-from validation.advice.summary import findings, in_short, summary
+from validation.advice.summary import findings, in_short, overview_of, summary
 from validation.simulation.model import Cost, ErrorEstimate
 
 

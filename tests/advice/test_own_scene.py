@@ -16,8 +16,8 @@ from validation.__main__ import main
 from validation.advice import compare, scene_model
 from validation.advice.compare import SceneProblem, swept_values
 from validation.advice.figure import MOST, errors_over_seconds, figure_over_seconds, panels_of
-from validation.advice.side_by_side import shown_models, speed_and_accuracy
 from validation.advice.summary import findings, in_full, summary
+from validation.advice.table import shown_models, speed_and_accuracy
 from validation.railway.problems.rail_models import ContactFilter
 from validation.report.style import styles_of
 
@@ -137,10 +137,10 @@ def test_a_distance_of_numbers_is_in_the_unit_of_the_tolerance():
 
 
 @catches("a distance from the reference where nothing is left to hear").at(
-    "validation.advice.side_by_side.counted_bands", lambda comparison, one: np.full(comparison.value_of(one).size, True)
+    "validation.advice.table.counted_bands", lambda comparison, one: np.full(comparison.value_of(one).size, True)
 )
 @catches("decibels of a power as those of an amplitude").at(
-    "validation.advice.side_by_side.decibels", lambda error: 10 * np.log10(1 + error)
+    "validation.advice.table.decibels", lambda error: 10 * np.log10(1 + error)
 )
 def test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst():
     """Of the bands that count, that in which models are farthest; without grid and sample both errors add there."""

@@ -11,10 +11,9 @@ import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted, wheel
 from tests.seeded import catches
 from validation.advice.advice import in_full
-from validation.advice.columns import STATUS_IN_WORDS, models_of_page, side_by_side
 from validation.advice.quantities import quantities_of
-from validation.advice.side_by_side import error_of_difference
-from validation.advice.summary import WIDTH, summary
+from validation.advice.summary import STATUS_IN_WORDS, WIDTH, models_of_page, side_by_side, summary
+from validation.advice.table import error_of_difference
 from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.scenes.load import bundled_for_compare
 from validation.scenes.rolling_quantity import RollingQuantity
@@ -166,12 +165,12 @@ def test_the_difference_on_the_page_is_that_of_the_band_that_is_farthest_off_on_
     rough = Finding(value=tuple(values), parts=(0.1, 0, 0))
     fine = Finding(value=(1.0,) * count, parts=(0.01, 0, 0), name="fine")
     found = compared(rough, fine, scene=scene, quantity="force-spectrum", solve_all=True)
-    shown, nothing = (row["apart"] for row in models_of_page(found))
+    shown, nothing = (row["difference"] for row in models_of_page(found))
     assert (shown, nothing) == (f"{-6 * sign:+d} ± 0.91 dB", "—")
 
 
 @catches("models side by side in decibels of a power").at(
-    ("validation.advice.columns.differences", "validation.advice.side_by_side.differences"),
+    "validation.advice.table.differences",
     lambda one, other: 10 * np.log10(one.answer.value / other.answer.value),
 )
 def test_spectra_stand_side_by_side_in_decibels():

@@ -14,9 +14,8 @@ import validation
 from tests.advice.planted_answers import Finding, compared, planted
 from tests.seeded import catches
 from validation.advice import compare
-from validation.advice.columns import bands_of
 from validation.advice.scene_model import Answer
-from validation.advice.summary import summary
+from validation.advice.summary import bands_of, summary
 from validation.railway import rail_columns
 from validation.railway.scenes import rail
 from validation.simulation.model import Cost
@@ -172,7 +171,7 @@ def test_text_json_and_csv_have_the_same_table():
         assert lists[2] == pytest.approx(lists[0] + lists[1])
         filters.append(written["a3_dB"])
         rows = [row for row in csv.DictReader(io.StringIO(validation.to_csv(comparison))) if row["selected"] == "True"]
-        shown = bands_of(comparison, comparison.selection.best)
+        shown = bands_of(comparison, comparison.model)
         for key, name, values in zip(keys, ("L_r", "A3", "L_eq", "L_FA"), lists, strict=True):
             assert [float(row[key]) for row in rows] == pytest.approx(values.tolist(), abs=1e-8)
             assert [float(cell) for cell in shown[name]] == pytest.approx(values, abs=0.0501)

@@ -1,25 +1,35 @@
 """The result of `compare` for other programs: strict JSON, and one table of all models."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from validation.advice.columns import levels_of
 from validation.advice.compare import Comparison, OneOrSeveral, listed
-from validation.advice.contact_force import ContactForce
-from validation.advice.hierarchy import Candidate
+from validation.advice.table import (
+    AXES,
+    OF_FORCE,
+    OF_RAIL,
+    by_quantity,
+    first_row,
+    result_table,
+    stacked,
+    swept_of,
+    tables_of_models,
+)
 from validation.advice.tolerance import decibels
 from validation.analysis.contents import as_csv, as_json, finite_or_none
-from validation.analysis.evidence import Table, table_of
+from validation.analysis.evidence import Table
 from validation.scenes.scene import Scene
 
 SCHEMA = 2
 """Of the JSON; 1 had no key of its own and no `predicted_error`, whose former name `claimed` stays for one release."""
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
-AXES, OF_RAIL = ("wavelength_mm", "frequency_hz"), ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
+CSV = (
+    *("wavelength_mm", "frequency_hz", "value", "low", "high", "unit", "model", "selected", "statistic"),
+    *(*OF_RAIL, *OF_FORCE, "seconds", "swept", "swept_value", "swept_unit"),
+)
+"""Columns of `result_table` in a CSV, where the table has them."""
 
 
 def to_json(comparison: OneOrSeveral) -> str:
@@ -53,8 +63,9 @@ def to_json_of(comparisons: Sequence[Comparison]) -> str:
 
 def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
     """The object of one comparison that `SCHEMA_OF_JSON` describes, without infinities and NaN."""
-    best, force = comparison.selection.best, comparison.force
-    levels = levels_of(comparison, best, force)
+    table, best = result_table(comparison), comparison.selection.best
+    models = tables_of_models(table)
+    columns: Mapping[str, Sequence[Any]] = next((model.columns for model in models if model["selected"][0]), {})
     parts = comparison.error_parts_of(best) if best else {}
     return {
         "schema_version": SCHEMA,
@@ -67,13 +78,14 @@ def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
         "statistic": comparison.statistic or None,
         "beyond_elasticity": comparison.beyond_elasticity or None,
         "model": comparison.model or None,
-        **{name: _finite_numbers(levels[name]) for name in ("value", "error")},
+        **{name: _finite_numbers(columns.get(name, comparison.value)) for name in ("value", "error")},
         "error_parts": {name: _finite_numbers(halves) for name, halves in parts.items()},
-        **{name: _finite_numbers(levels.get(name, ())) for name in (*AXES, "nominal_hz", *OF_RAIL)},
+        **{name: _finite_numbers(getattr(comparison, name)) for name in AXES},
+        **{name: _finite_numbers(columns.get(name, ())) for name in OF_RAIL},
         **swept_of(comparison),
         "assumed": assumed(comparison.scene),
         "notes": list(comparison.scene.diagnose()),
-        "models": [_record_of_model(comparison, candidate, force) for candidate in comparison.models],
+        "models": [_record_of_model(model) for model in models],
     }
 
 
@@ -99,10 +111,10 @@ def to_csv(comparison: OneOrSeveral) -> str:
     >>> print(text.splitlines()[0])
     wavelength_mm,frequency_hz,value,low,high,unit,model,selected
     """
-    return as_csv(table_of_several(listed(comparison))).decode()
+    return as_csv(csv_table(listed(comparison))).decode()
 
 
-def table_of_several(comparisons: Sequence[Comparison]) -> Table:
+def csv_table(comparisons: Sequence[Comparison]) -> Table:
     """The rows of all, one under another, behind the name of the scene, and of the quantity where these differ."""
     several, kinds = len(comparisons) > 1, len(by_quantity(comparisons)) > 1
     rows = list[dict[str, object]]()
@@ -111,47 +123,17 @@ def table_of_several(comparisons: Sequence[Comparison]) -> Table:
             {"quantity": comparison.quantity} if kinds else {}
         )
         rows += [front | row for row in _rows_of_comparison(comparison)]
-    return table_of(comparisons[0].quantity, rows)
-
-
-def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]]:
-    """Comparisons by their quantity, in the order in which quantities first stand."""
-    names = dict.fromkeys(comparison.quantity for comparison in comparisons)
-    return {name: [comparison for comparison in comparisons if comparison.quantity == name] for name in names}
+    return stacked(comparisons[0].quantity, rows)
 
 
 def _rows_of_comparison(comparison: Comparison) -> list[dict[str, object]]:
-    """A row a number or a band, of each model that was solved; NaN where there is no number."""
-    force, swept = comparison.force, swept_of(comparison) if comparison.swept else {}
-    rows = [row for candidate in comparison.selection.solved for row in _rows_of_model(comparison, candidate, force)]
-    none = dict.fromkeys((*AXES, "value", "low", "high"), math.nan)
-    return [row | swept for row in rows or [{**none, "unit": comparison.unit, "model": "", "selected": False}]]
-
-
-def _rows_of_model(comparison: Comparison, candidate: Candidate, force: ContactForce | None) -> list[dict[str, object]]:
-    """Rows of one model, a band each; columns of a rail, its force and the clock where the comparison has them."""
-    levels = levels_of(comparison, candidate, force)
-    value, half = levels["value"], levels["error"]
-    columns: dict[str, Any] = {name: levels[name] if levels[name].size else math.nan for name in AXES}
-    columns |= {"value": value, "low": value - half, "high": value + half}
-    columns |= {"unit": comparison.unit, "model": candidate.name, "selected": candidate.name == comparison.model}
-    columns |= {"statistic": comparison.statistic} if comparison.statistic else {}
-    columns |= {name: levels[name] for name in OF_RAIL if name in levels}
-    if force:
-        columns |= {
-            "force_sum_dBA": force.total(candidate.name),
-            "force_over_selected_dB": force.over_chosen(candidate.name),
-        }
-    if comparison.timed:
-        columns["seconds"] = comparison.seconds_of(candidate)
-    cells = [np.broadcast_to(column, value.shape).tolist() for column in columns.values()]
-    return [dict(zip(columns, row, strict=True)) for row in zip(*cells, strict=True)]
-
-
-def swept_of(comparison: Comparison) -> dict[str, object]:
-    """Key, value and unit of a sweep; None where there is none."""
-    swept = comparison.swept
-    return {"swept": swept and swept.key, "swept_value": swept and swept.value, "swept_unit": swept and swept.unit}
+    """Rows of the models that were solved, in the columns of CSV; one without a number where there is none."""
+    table = result_table(comparison)
+    solved = table.where(solved=True).columns if True in table.columns["solved"] else {}
+    columns = {name: solved[name] for name in CSV if name in solved}
+    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    none = dict.fromkeys(CSV[:5], math.nan) | {"unit": comparison.unit, "model": "", "selected": False}
+    return rows or [none | (swept_of(comparison) if comparison.swept else {})]
 
 
 def assumed(scene: Scene) -> dict[str, float]:
@@ -165,23 +147,21 @@ def assumed(scene: Scene) -> dict[str, float]:
     return {**assumptions, **axes, "largest_pressure_Pa": contact.largest_pressure}
 
 
-def _record_of_model(comparison: Comparison, candidate: Candidate, force: ContactForce | None) -> dict[str, object]:
+def _record_of_model(table: Table) -> dict[str, object]:
     """The entry of one model in the list "models" of a record; numbers that need a solve are None without one."""
-    solved = candidate in comparison.selection.solved
+    model, solved = first_row(table), bool(table["solved"][0])
     return {
-        "model": candidate.name,
-        "is_mdr": candidate.is_mdr,
-        "status": candidate.status,
-        "predicted_error": finite_or_none(candidate.predicted_error),
-        "claimed": finite_or_none(candidate.predicted_error),
-        "error": finite_or_none(candidate.error) if solved else None,
-        "cost_s": finite_or_none(candidate.cost),
-        "reason": candidate.reason,
-        "value": _finite_numbers(comparison.value_of(candidate)) if solved else None,
-        "seconds": finite_or_none(comparison.seconds_of(candidate)),
-        "force_sum_dBA": finite_or_none(force.total(candidate.name))
-        if force and candidate.name in force.levels
-        else None,
+        "model": model["model"],
+        "is_mdr": model["is_mdr"],
+        "status": model["status"],
+        "predicted_error": finite_or_none(model["predicted_error"]),
+        "claimed": finite_or_none(model["predicted_error"]),
+        "error": finite_or_none(model["relative_error"]) if solved else None,
+        "cost_s": finite_or_none(model["cost_s"]),
+        "reason": model["reason"],
+        "value": _finite_numbers(table["value"]) if solved else None,
+        "seconds": finite_or_none(model.get("seconds", math.nan)),
+        "force_sum_dBA": finite_or_none(model.get("force_sum_dBA", math.nan)),
     }
 
 

@@ -9,8 +9,8 @@ import matplotlib
 import numpy as np
 
 from validation.advice.compare import Comparison, OneOrSeveral, listed
-from validation.advice.exported import by_quantity, table_of_several
-from validation.advice.side_by_side import counted_bands, reference_of, shown_models, speed_and_accuracy
+from validation.advice.exported import csv_table
+from validation.advice.table import by_quantity, counted_bands, reference_of, shown_models, speed_and_accuracy
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, table_of
 from validation.analysis.series import ENDS
@@ -100,7 +100,7 @@ def _panels_of_quantity(comparisons: Sequence[Comparison]) -> list[DrawnPanel]:
     """Panels of one quantity: of a sweep, of a spectrum, or of a number by each model."""
     if len(comparisons) > 1 and comparisons[0].swept is not None:
         return list(_panels_of_sweep(comparisons))
-    table = table_of_several(comparisons)
+    table = csv_table(comparisons)
     if len(comparisons) > 1:
         selected = table.where(selected=True)
         table = Table(table.name, {**selected.columns, "model": selected.columns["scene"]})

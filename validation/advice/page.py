@@ -4,12 +4,13 @@ import base64
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from validation.advice import advice, columns, side_by_side, summary
+from validation.advice import advice, summary
 from validation.advice import advice as on_mdr
 from validation.advice.compare import Comparison
 from validation.advice.contact_force import LEVELS
-from validation.advice.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of
+from validation.advice.exported import SCHEMA_OF_JSON, csv_table, to_json_of
 from validation.advice.figure import to_figure
+from validation.advice.table import TOGETHER, by_quantity, reference_of
 from validation.analysis.contents import as_csv, as_json
 from validation.report.formats import templates
 from validation.scenes.description import describe
@@ -22,7 +23,7 @@ def files_of_comparison(comparisons: Sequence[Comparison], about: dict[str, obje
     """All that the folder holds, the page last. about: its provenance."""
     files = {
         JSON: to_json_of(comparisons).encode(),
-        CSV: as_csv(table_of_several(comparisons)),
+        CSV: as_csv(csv_table(comparisons)),
         SCHEMA: SCHEMA_OF_JSON.read_bytes(),
         "provenance.json": as_json(about),
     }
@@ -47,9 +48,9 @@ def _rendered_page(comparisons: Sequence[Comparison], files: Mapping[str, bytes]
     text = page.render(
         title=_title(comparisons),
         scenes=[_entries_of_scene(f"scene-{i}", comparison) for i, comparison in enumerate(comparisons, 1)],
-        overview=columns.overview_of(comparisons) if len(comparisons) > 1 else None,
+        overview=summary.overview_of(comparisons) if len(comparisons) > 1 else None,
         pictures=pictures,
-        together=side_by_side.TOGETHER,
+        together=TOGETHER,
         about=about,
     )
     return f"{text}\n".encode()
@@ -60,7 +61,7 @@ def _entries_of_scene(name: str, comparison: Comparison) -> dict[str, object]:
     best = comparison.selection.best
     answer = best.answer if best else None
     several = len(comparison.selection.solved) > 1
-    letters, levels = columns.levels_of_models(comparison) if several and comparison.is_level else ({}, {})
+    letters, levels = summary.levels_of_models(comparison) if several and comparison.is_level else ({}, {})
     return {
         "name": name,
         "title": _title([comparison]),
@@ -71,13 +72,13 @@ def _entries_of_scene(name: str, comparison: Comparison) -> dict[str, object]:
         "help": advice.what_would_help(comparison),
         "notes": _notes(comparison),
         "understood": (*describe(comparison.scene), ("assumed", summary.ASSUMED)),
-        "models": columns.models_of_page(comparison),
-        "bands": columns.bands_of(comparison, best) if best and comparison.is_level else None,
+        "models": summary.models_of_page(comparison),
+        "bands": summary.bands_of(comparison, best.name) if best and comparison.is_level else None,
         "levels": LEVELS if comparison.roughness.size else "",
         "force": comparison.force,
-        "differences": levels or (columns.numbers_of_models(comparison) if several else None),
+        "differences": levels or (summary.numbers_of_models(comparison) if several else None),
         "letters": letters,
-        "reference": side_by_side.reference_of(comparison).name if several else "",
+        "reference": reference_of(comparison).name if several else "",
         "age": summary.age_of_errors(comparison),
         "cost": summary.cost_of(comparison),
     }

@@ -1,18 +1,42 @@
 """The text that `compare` prints: what was understood, what became of each model, the result, whether MDR is enough."""
 
+import math
+import string
 import textwrap
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+
+import numpy as np
 
 from validation.advice import advice as on_mdr
-from validation.advice.advice import what_would_help, would_help
-from validation.advice.columns import bands_of, columns_as_lines, models_of_page, overview_of, side_by_side
+from validation.advice.advice import is_solved, springs_of, what_would_help, would_help
 from validation.advice.compare import Comparison, OneOrSeveral, listed
 from validation.advice.contact_force import LEVELS
+from validation.advice.hierarchy import Candidate, Status
 from validation.advice.quantities import quantity_of
 from validation.advice.scene_model import Answer
-from validation.advice.tolerance import Tolerance, decibels
-from validation.analysis.number_text import format_seconds, scaled, short
+from validation.advice.table import (
+    DIFFERENCES,
+    TOGETHER,
+    first_row,
+    has_numbers,
+    reference_of,
+    result_table,
+    tables_of_models,
+)
+from validation.advice.tolerance import NAMES, Columns, Tolerance, decibels, percentage
+from validation.analysis.evidence import Table
+from validation.analysis.number_text import (
+    NONE,
+    format_seconds,
+    half_width_text,
+    scaled,
+    short,
+    signed,
+    tenth,
+    two_digits,
+)
 from validation.scenes.description import description_lines
 from validation.scenes.scene import Scene
 from validation.simulation.model import Target
@@ -22,6 +46,32 @@ WIDTH = 100
 CAUSE, CLAUSE = ": ", "; "
 """Between a clause and its cause, and between clauses of a reason."""
 ASSUMED = "elastic half-spaces, isotropic, without friction and adhesion"
+ABREAST = 10
+"""Models in a table, so that its lines fit."""
+STATUS_IN_WORDS: dict[Status, str] = {
+    "accepted": "enough, and the cheapest that is",
+    "not accurate enough": "solved: not enough",
+    "skipped": "not solved: its claim is too high",
+    "not needed": "not solved: a cheaper is enough",
+    "failed": "solved: no result",
+    "out of range": "not solved: its error is unknown",
+    "not asked": "not solved: not asked for",
+}
+"""What became of a model, in words."""
+BANDS: dict[str, tuple[str, Callable[[float], str]]] = {
+    "wavelength_mm": ("wavelength [mm]", "{:.4g}".format),
+    "frequency_hz": ("f [Hz]", "{:.4g}".format),
+    "nominal_hz": ("band [Hz]", "{:g}".format),
+    "q_a": ("q a", "{:.2f}".format),
+    "amplitude": ("rms [{amplitude}]", "{:.4g}".format),
+    "value": ("level [{unit}]", tenth),
+    "roughness_dB": ("L_r", tenth),
+    "a3_dB": ("A3", tenth),
+    "equivalent_dB": ("L_eq", tenth),
+    "error": ("± [dB]", two_digits),
+    "force_dBA": ("L_FA", tenth),
+}
+"""Of a table of bands: head and cells, by the names that JSON and CSV have, in the order that is printed."""
 
 
 def summary(comparison: OneOrSeveral) -> str:
@@ -77,7 +127,7 @@ def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
     else:
         yield from (result_of(quantity, best.answer) for quantity in quantities)
         yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
-        yield from columns_as_lines(bands_of(comparison, best)) if comparison.is_level else ()
+        yield from columns_as_lines(bands_of(comparison, best.name)) if comparison.is_level else ()
         if force := comparison.force:
             yield from ("", *force.sentences, *(f"  {line}" for line in columns_as_lines(force.table)), "")
         yield from side_by_side(comparison)
@@ -87,10 +137,11 @@ def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
 
 def models_as_lines(comparison: Comparison) -> Iterator[str]:
     """What became of each model."""
-    spent = "took" if comparison.timed else "cost"
-    yield from ("", f"{'model':36s}{'claims':>12s}{'found':>9s}{spent:>8s}  what became of it")
+    head, spent = ("took", "seconds") if comparison.timed else ("cost", "cost")
+    yield from ("", f"{'model':36s}{'claims':>12s}{'found':>9s}{head:>8s}  what became of it")
     for row in models_of_page(comparison):
-        yield f"{row['model']:36s}{row['claims']:>12s}{row['found']:>9s}{row[spent]:>8s}  {row['became']}"
+        errors = f"{row['predicted_error']:>12s}{row['error']:>9s}"
+        yield f"{row['model']:36s}{errors}{row[spent]:>8s}  {row['status']}"
 
 
 def no_answer(comparison: Comparison) -> str:
@@ -152,6 +203,169 @@ def help_with(comparisons: Sequence[Comparison]) -> list[str]:
     return list(wrapped(lines, indent=4))
 
 
+def bands_of(comparison: Comparison, model: str) -> Columns:
+    """A row a band of a model: wavelength, frequency, q a, rms, levels and their error, as the scene has them."""
+    table = result_table(comparison).where(model=model)
+    names = [name for name in BANDS if has_numbers(table, name) and not (name == "value" and "a3_dB" in table.columns)]
+    units = {"unit": comparison.unit, "amplitude": comparison.scene_quantity.unit}
+    return _cells_of_bands(table, names, units)
+
+
+def _cells_of_bands(table: Table, names: Iterable[str], units: Mapping[str, str] = MappingProxyType({})) -> Columns:
+    """Printed cells of columns that `BANDS` has, by their heads. units: what heads are formatted with."""
+    return {
+        head.format(**units): [cell(value) for value in table[name].tolist()]
+        for name in names
+        for head, cell in [BANDS[name]]
+    }
+
+
+def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
+    """A row a model: what it claims, found and costs, how far it is from the reference, and what became of it."""
+    return [_cells_of_model(comparison, table) for table in tables_of_models(result_table(comparison))]
+
+
+def _cells_of_model(comparison: Comparison, table: Table) -> dict[str, str]:
+    """The printed cells of one model. table: its rows of `result_table`."""
+    model, tolerance = first_row(table), comparison.tolerance
+    predicted, answered = model["predicted_error"], model["answered"]
+    return {
+        "model": label(model["model"], is_mdr=model["is_mdr"]),
+        "predicted_error": tolerance.shown(predicted) if math.isfinite(predicted) else "out of range",
+        "error": tolerance.shown_distinct(model["relative_error"]) if answered else NONE,
+        "difference": _largest_difference(comparison, table) if model["solved"] and not model["is_reference"] else NONE,
+        "cost": format_seconds(model["spent_s"] if answered else model["cost_s"]),
+        "seconds": format_seconds(model.get("seconds", math.nan), least="< 1 ms"),
+        "status": _status_in_words(comparison, model["status"], answered=answered),
+        "reason": model["reason"],
+        "selected": "selected" if model["selected"] else "",
+    }
+
+
+def _status_in_words(comparison: Comparison, status: Status, *, answered: bool) -> str:
+    """The status of a model as the table prints it; beyond linear elasticity no status says enough or not needed."""
+    if comparison.beyond_elasticity and status in ("accepted", "not accurate enough", "not needed"):
+        return f"{'solved' if answered else 'not solved'}: no elastic half-space"
+    return STATUS_IN_WORDS[status].removeprefix("not " if answered else "")
+
+
+def label(model: str, *, is_mdr: bool) -> str:
+    """The name of a model, and whether it is MDR."""
+    return f"{model} (MDR)" if is_mdr else model
+
+
+def _largest_difference(comparison: Comparison, table: Table) -> str:
+    """The largest difference of a model from the one with the smallest error, in any band."""
+    worst = np.abs(table["difference_dB"]).argmax()
+    largest, error = (float(table[name][worst]) for name in DIFFERENCES)
+    if comparison.is_level or comparison.in_decibels:
+        return f"{'+' if largest > 0 else ''}{short(largest)} {half_width_text(error)} dB"
+    return f"{percentage(largest):+.2g} {half_width_text(percentage(error))} %"
+
+
+def numbers_of_models(comparison: Comparison) -> Columns:
+    """A row a model that was solved: its number, its error, and how far it is from the reference, with the error."""
+    table = result_table(comparison).where(solved=True)
+    columns: Columns = {
+        NAMES: list(map(str, table["model"])),
+        f"{comparison.quantity} [{comparison.unit}]": [f"{value:.4g}" for value in table["value"]],
+        "±": [two_digits(half) for half in table["error"].tolist()],
+    }
+    for head, convert, digits in (("difference [dB]", float, 2), ("[%]", percentage, 1)):
+        columns[head] = [
+            NONE if is_reference else f"{signed(convert(off), digits)} {half_width_text(convert(error))}"
+            for is_reference, off, error in zip(
+                *(table[name].tolist() for name in ("is_reference", *DIFFERENCES)), strict=True
+            )
+        ]
+    return columns
+
+
+def levels_of_models(comparison: Comparison) -> tuple[dict[str, str], Columns]:
+    """A row a band: the level of the reference, and what is to be added to it for each other model.
+
+    Returns the names of these models by their letters, with the error of the difference, and the columns.
+    """
+    solved = result_table(comparison).where(solved=True)
+    reference, others = solved.where(is_reference=True), tables_of_models(solved.where(is_reference=False))
+    axes = [name for name in ("wavelength_mm", "nominal_hz") if has_numbers(reference, name)]
+    columns = _cells_of_bands(reference, axes) | {"level": [tenth(level) for level in reference["value"].tolist()]}
+    letters = dict(zip(string.ascii_uppercase, others, strict=False))
+    for letter, table in letters.items():
+        columns[letter] = [signed(off, 1) for off in table["difference_dB"].tolist()]
+    return {letter: f"{table['model'][0]}, {_error_in_words(table)}" for letter, table in letters.items()}, columns
+
+
+def _error_in_words(table: Table) -> str:
+    """As ± 1.2 dB: the error of the rms over bands, or the smallest and the largest where each band has its own."""
+    errors = table["difference_error_dB"]
+    ends = dict.fromkeys(half_width_text(float(end)) for end in (errors.min(), errors.max()))
+    shown = " to ".join(ends).replace("to ± ", "to ")
+    where = "each band" if table["errors_by_band"][0] else "the rms over bands"
+    return shown if "unknown" in shown else f"{shown} dB in {where}"
+
+
+def columns_as_lines(columns: Mapping[str, list[str]]) -> Iterator[str]:
+    """Names of models to the left, all else to the right; columns under a letter are narrow and close together."""
+    widths = {name: max(5 if len(name) == 1 else 8, *map(len, [name, *cells])) for name, cells in columns.items()}
+    signs = {name: "<" if name == NAMES else ">" for name in columns}
+    for row in (tuple(columns), *zip(*columns.values(), strict=True)):
+        cells = [f"{text:{signs[name]}{widths[name]}s}" for name, text in zip(columns, row, strict=True)]
+        yield "".join(f"{' ' if len(name) == 1 else '  '}{cell}" for name, cell in zip(columns, cells, strict=True))[2:]
+
+
+def side_by_side(comparison: Comparison) -> Iterator[str]:
+    """Lines of a table, a number a line or a band a line; none where only one model was solved."""
+    if len(comparison.selection.solved) < 2:
+        return
+    reference = reference_of(comparison).name
+    if not comparison.is_level:
+        lines = [f"  {line}" for line in columns_as_lines(numbers_of_models(comparison))]
+        yield from ("", f"side by side; differences from {reference}, ± {TOGETHER}", *lines, "")
+        return
+    letters, columns = levels_of_models(comparison)
+    level = f"level by {reference} [{comparison.unit}]"
+    yield from ("", f"side by side: {level}, and from there to the others, ± {TOGETHER}")
+    yield from (f"  {letter}: {name}" for letter, name in letters.items())
+    axis = {name: cells for name, cells in columns.items() if name not in letters}
+    heads = list(letters)
+    for first in range(0, len(heads), ABREAST):
+        yield from columns_as_lines(axis | {name: columns[name] for name in heads[first : first + ABREAST]})
+    yield ""
+
+
+def overview_of(comparisons: Sequence[Comparison]) -> Columns:
+    """A row a scene: the model that is enough, its error, that of MDR, and the result, one number or the force."""
+    several = len({comparison.quantity for comparison in comparisons}) > 1
+    rows = [_row_of_scene(comparison, several) for comparison in comparisons]
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
+    """The cells of one scene by their heads. several: whether the scene is named with its quantity."""
+    best, shown, scene = comparison.selection.best, comparison.tolerance.shown, comparison.scene.name
+    springs = springs_of(comparison)
+    if best is None:
+        result = ""
+    elif comparison.is_level:
+        result = force.shown if (force := comparison.force) else f"{comparison.value.size} bands"
+    else:
+        (value,), (half,) = comparison.value, comparison.errors_of(best)
+        result = f"{scaled(float(value), float(half))} {comparison.unit}"
+    return {
+        "scene": f"{scene}: {comparison.quantity}" if several else scene,
+        "model": label(best.name, is_mdr=best.is_mdr) if best and comparison.met else "none is enough",
+        "error": shown(best.error) if best else "none",
+        "MDR": NONE if springs is None else f"{shown(springs.error)}{_prediction_note(comparison, springs)}",
+        "result": result,
+    }
+
+
+def _prediction_note(comparison: Comparison, springs: Candidate) -> str:
+    """Text that marks the error of MDR as predicted; empty where MDR was solved or its error is unknown."""
+    return "" if is_solved(comparison, springs) or not math.isfinite(springs.error) else ", predicted"
+
+
 def result_of(comparison: Comparison, answer: Answer) -> str:
     """The number with its error, or the model of a spectrum with its error, and the parts of that."""
     shown = comparison.tolerance.shown
@@ -210,7 +424,7 @@ def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
     yield ""
     if best is not None and best.answer is not None and comparison.is_level:
         yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
-        yield from columns_as_lines(bands_of(comparison, best))
+        yield from columns_as_lines(bands_of(comparison, best.name))
     yield from side_by_side(comparison)
     yield from would_help(comparison)
     yield ""

@@ -243,13 +243,13 @@ def _write(comparisons: list[Comparison], arguments: argparse.Namespace) -> None
 
 def _write_data(comparisons: list[Comparison], arguments: argparse.Namespace) -> None:
     # imported where a file is asked for
-    from validation.advice.exported import table_of_several, to_json_of
+    from validation.advice.exported import csv_table, to_json_of
     from validation.analysis.contents import as_csv
 
     if arguments.json:
         write_output(arguments.json, to_json_of(comparisons).encode())
     if arguments.csv:
-        write_output(arguments.csv, as_csv(table_of_several(comparisons)))
+        write_output(arguments.csv, as_csv(csv_table(comparisons)))
     for export, path in _exports(arguments):
         write_output(path, export.written(comparisons))
 
