@@ -1,7 +1,8 @@
-"""The chart of judgements: the deviation of a model along the parameter, a panel a quantity, and its seconds."""
+"""The chart of judgements and the table that it draws: deviations of a model along the parameter, and its seconds."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -25,8 +26,11 @@ MARGIN, LARGEST = 0.05, 1e100
 """Of a scale beyond its points; of a number that an axis has room for."""
 YOURS = " (this model)"
 """After a name that a model of the package has as well."""
-DrawnPanel = tuple[Panel, Table]
-"""A panel, and the table that it draws."""
+DRAWN, PANEL = "drawn", "panel"
+"""The table of a figure, and its column that tells panels apart."""
+DEVIATIONS, TIMES, ERRORS = (Curve(DRAWN, by=("model",), **form) for form in ({"bars": True}, {}, {"style": "marks"}))
+DrawnPanel = tuple[Panel, Sequence[Mapping[str, object]]]
+"""A panel of one curve, or a family, and the rows of its table."""
 
 
 def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
@@ -36,35 +40,32 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
     """
     if form not in FORMATS:
         raise ValueError(f"a figure must be one of {', '.join(FORMATS)}, got {form!r}")
-    shown = judgements[: len(judgements) - len(left_out(judgements))]
-    drawn = [panel for judgement in shown for panel in _deviation_panels(judgement)]
-    drawn += [panel for judgement in shown for panel in _cost_panels(judgement)]
-    chart, tables = chart_of(drawn)
-    evidence = Evidence(title="", method="", numbers=(), tables=tables, conclusions=(), captions={})
+    missing = left_out(judgements)
+    chart, table = chart_of(judgements[: len(judgements) - len(missing)])
+    evidence = Evidence(title="", method="", numbers=(), tables=(table,), conclusions=(), captions={})
+    of_package = {cost.model for judgement in judgements for cost in judgement.costs[1:]}
     with matplotlib.rc_context(SETTINGS):
-        figure = draw(chart, evidence, users=_names_of_users(judgements, tables))
-    if names := left_out(judgements):
-        figure.suptitle(in_two_lines(f"not shown: {', '.join(names)}"), fontsize=8)
+        figure = draw(chart, evidence, users={*map(str, table.columns["model"])} - of_package)
+    if missing:
+        figure.suptitle(in_two_lines(f"not shown: {', '.join(missing)}"), fontsize=8)
     plain_figure(figure)
     return picture(figure, form)
 
 
-def chart_of(drawn: Sequence[DrawnPanel]) -> tuple[Chart, tuple[Table, ...]]:
-    """The chart, and the tables that it draws; without a panel it says so."""
-    panels = tuple(panel for panel, _ in drawn) or (Panel("", "nothing to draw", log=""),)
-    return Chart("judgement", panels=panels), tuple(table for _, table in drawn)
+def chart_of(judgements: Sequence["Judgement"]) -> tuple[Chart, Table]:
+    """Deviations before seconds, and the table of both; without a panel it says so."""
+    drawn = [panel for of in (_deviation_panels, _cost_panels) for judgement in judgements for panel in of(judgement)]
+    if not drawn:
+        return Chart("judgement", panels=(Panel("", "nothing to draw", log=""),)), Table(DRAWN, {"model": ()})
+    panels = [panel.of(replace(panel.curves[0], of={PANEL: i})) for i, (panel, _) in enumerate(drawn)]
+    table = table_of(DRAWN, [{PANEL: i, **row} for i, (_, rows) in enumerate(drawn) for row in rows])
+    return Chart("judgement", panels=tuple(panels)), table
 
 
 def left_out(judgements: Sequence["Judgement"]) -> list[str]:
     """Names of the models that a figure has no room for: the last ones."""
     counts = [len([*_deviation_panels(judgement), *_cost_panels(judgement)]) for judgement in judgements]
     return [judgement.model for i, judgement in enumerate(judgements) if i and sum(counts[: i + 1]) > PANELS]
-
-
-def _names_of_users(judgements: Sequence["Judgement"], tables: Sequence[Table]) -> set[str]:
-    """All names of curves but for those of the package's own models."""
-    names = {str(name) for table in tables for name in table.columns.get("model", ())}
-    return names - {cost.model for judgement in judgements for cost in judgement.costs[1:]}
 
 
 def _deviation_panels(judgement: "Judgement") -> Iterator[DrawnPanel]:
@@ -112,21 +113,16 @@ def _deviation_panel(judgement: "Judgement", curves: Sequence[JudgedSeries], sub
     ]
     name, log = f"{judgement.model}: {first.quantity}", "x" if first.at[-1] > 20 * first.at[0] > 0 else ""
     title = "\n".join(in_two_lines(words, TITLE) for words in (name, subtitle) if words)
-    table = f"{name}, {subtitle}"
     limits = _limits_of(judgement, first.quantity, factor, limit)
-    panel = Panel(first.along, y, title=title, log=log, shade=(-limit, limit), ylim=limits)
-    return panel.of(Curve(table, by=("model",), bars=True)), table_of(table, rows)
+    return Panel(first.along, y, (DEVIATIONS,), title, log=log, shade=(-limit, limit), ylim=limits), rows
 
 
 def _limits_of(judgement: "Judgement", quantity: str, factor: float, limit: float) -> tuple[float, float]:
     """Of the axis: one scale of a quantity of one model, so that a model that is far off leaves others readable."""
-    intervals = [
-        _ends(factor * number.difference, factor * number.error)
-        for number in judgement.numbers
-        if number.quantity == quantity
-    ]
-    ends = [end for interval in intervals for end in interval.values() if math.isfinite(end)]
-    low, high = min(-limit, *ends, limit), max(-limit, *ends, limit)
+    numbers = [number for number in judgement.numbers if number.quantity == quantity]
+    intervals = [_ends(factor * number.difference, factor * number.error).values() for number in numbers]
+    ends = [-limit, limit, *(end for interval in intervals for end in interval if math.isfinite(end))]
+    low, high = min(ends), max(ends)
     return low - MARGIN * (high - low), high + MARGIN * (high - low)
 
 
@@ -136,8 +132,7 @@ def _times_panel(judgement: "Judgement") -> DrawnPanel:
     model = judgement.model + YOURS * (judgement.model == "bem3d")
     rows = [{"model": model, x: time.cells, **_ends(time.seconds)} for time in judgement.times]
     rows += [{"model": "bem3d", x: time.cells, **_ends(time.bem3d)} for time in judgement.times]
-    panel = Panel(x, "seconds", title=in_two_lines(name, TITLE), log="xy", ticked=True)
-    return panel.of(Curve(name, by=("model",))), table_of(name, rows)
+    return Panel(x, "seconds", (TIMES,), in_two_lines(name, TITLE), log="xy", ticked=True), rows
 
 
 def _errors_panel(judgement: "Judgement") -> DrawnPanel:
@@ -151,8 +146,7 @@ def _errors_panel(judgement: "Judgement") -> DrawnPanel:
     errors = [factor * cost.error for cost in costs if 0 < factor * cost.error < LARGEST]
     # room for a tick, however near they are
     ylim = (min(errors) / 2, 2 * max(errors)) if errors else None
-    panel = Panel(x, f"median error [{unit}]", title=in_two_lines(name, TITLE), log="xy", ylim=ylim)
-    return panel.of(Curve(table := f"{name} and seconds", style="marks", by=("model",))), table_of(table, rows)
+    return Panel(x, f"median error [{unit}]", (ERRORS,), in_two_lines(name, TITLE), log="xy", ylim=ylim), rows
 
 
 def _ends(value: float, half_width: float = 0.0) -> dict[str, float]:

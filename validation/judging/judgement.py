@@ -190,16 +190,8 @@ class SolverTime(NamedTuple):
 class JudgedRange:
     """Neighbouring numbers of one verdict.
 
-    Attributes
-    ----------
-    quantity, where :
-        What was computed, and its conditions but for the parameter.
-    along : str
-        The parameter, empty where there is none.
-    start, stop : float
-        Values of the parameter at the first and the last number.
-    verdict : Verdict
-        Of all of them.
+    where: the conditions but for the parameter; along: the parameter, empty where there is none; start, stop: its
+    values at the first and the last number.
     """
 
     quantity: str
@@ -239,14 +231,6 @@ class JudgedSeries:
         """Neighbouring values of the parameter of one verdict."""
         return verdict_ranges(self.at, [number.verdict for number in self.numbers])
 
-    @property
-    def ranges(self) -> list[JudgedRange]:
-        """The same with quantity and conditions."""
-        return [
-            JudgedRange(self.quantity, self.where, self.along, part.start, part.stop, part.verdict)
-            for part in self.verdict_ranges
-        ]
-
 
 def groups_of(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
     """Items under each key, both in their order."""
@@ -278,7 +262,12 @@ def _series(numbers: Sequence[JudgedNumber]) -> Iterator[JudgedSeries]:
 
 def ranges_of(numbers: Iterable[JudgedNumber]) -> list[JudgedRange]:
     """Of all series of these numbers."""
-    return [part for of_quantity in series_of(numbers) for series in of_quantity for part in series.ranges]
+    return [
+        JudgedRange(series.quantity, series.where, series.along, part.start, part.stop, part.verdict)
+        for of_quantity in series_of(numbers)
+        for series in of_quantity
+        for part in series.verdict_ranges
+    ]
 
 
 def counts_of(numbers: Sequence[JudgedNumber]) -> dict[Verdict, int]:
@@ -295,14 +284,8 @@ Ranges = tuple[tuple[float, float], ...]
 class WithinRanges:
     """Where a quantity is within tolerance in all of its series.
 
-    Attributes
-    ----------
-    values : Mapping
-        Under each set of ranges of the parameter the values of ``by`` that have it; empty where there is none.
-    by : str
-        A numeric condition; empty where the ranges are those of all series.
-    every, numeric : sequence of str
-        Other conditions under each of whose values the ranges hold, and which of these are numbers.
+    values: the ranges of the parameter, each with the values of `by` that have it; by: a numeric condition, empty where
+    all series have the same ranges; every: other conditions, under each of whose values they hold; numeric: of these.
     """
 
     values: Mapping[Ranges, Sequence[float | str]]

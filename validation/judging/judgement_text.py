@@ -51,17 +51,17 @@ NOTES = (
 
 
 class Line(StrEnum):
-    """Templates of lines on a reduced model.
+    """Templates of lines on a reduced model. {0}: the judgement, a number of it, or a cost.
 
     strip: a sign a number; outcome: ranges of each verdict; warning: of the model, or that it has given none.
     """
 
-    RESULT = "{model}: {kind}, tolerance {tolerance}, {count} points in {seconds:.1f} s: {counts}"
+    RESULT = "{0.model}: {kind}, tolerance {0.tolerance}, {count} points in {0.seconds:.1f} s: {counts}"
     QUANTITY = "\n{quantity}{along}{note}"
     STRIP = "  {conditions:32s} {strip}  {outcome}"
-    LARGEST = "  {quantity}, {conditions}: {shown}"
-    BROKEN = "  {quantity}, {place}: {shown}{warning}"
-    COST = "  {model:32s}{error:>10s}{seconds:10.2g} s"
+    LARGEST = "  {0.quantity}, {conditions}: {0.shown}"
+    BROKEN = "  {0.quantity}, {place}: {0.shown}{warning}"
+    COST = "  {0.model:32s}{error:>10s}{0.seconds:10.2g} s"
 
 
 class Sentence(StrEnum):
@@ -78,7 +78,7 @@ class Sentence(StrEnum):
     NEVER_WITHIN = "For no {along} its {quantity} is within {limit}{every} for certain{settings}."
     COUNTS = "Of {count} points {counts}."
     CONTRADICTED = "It contradicts what is known in closed form: {quantities}."
-    LARGEST = "The largest deviation, of its {quantity}, is {shown}{place}."
+    LARGEST = "The largest deviation, of its {0.quantity}, is {0.shown}{place}."
     LOST = "It has no value at {lost} of {count} points."
 
 
@@ -89,7 +89,7 @@ class SolverPattern(StrEnum):
     REASON = "  {reason}: {quantities}, in {problems}{more}"
     COVERED = "  the verdict covers {count} problems that the solver serves; {rest} it says nothing"
     OTHER = "  {place}: {reason}"
-    TIME = "  {cells:.0f}²{seconds:12.3g} s{ratio:9.2g} times"
+    TIME = "  {0.cells:.0f}²{0.seconds:12.3g} s{ratio:9.2g} times"
     GROWTH = "  its time grows as the number of cells to the power {power:.2g}, that of bem3d {of_bem3d:.2g}"
     PAPER = "  {model!r} {verb} discrete problems{half_spaces} of mdr-validation {version}{accuracy}{limits}."
 
@@ -97,14 +97,8 @@ class SolverPattern(StrEnum):
 def summary_lines(judgement: "Judgement") -> Iterator[str]:
     """Of a reduced model."""
     numbers, quantities = judgement.numbers, series_of(judgement.numbers)
-    yield Line.RESULT.format(
-        model=judgement.model,
-        kind=judgement.kind.replace("_", " "),
-        tolerance=judgement.tolerance,
-        count=len(numbers),
-        seconds=judgement.seconds,
-        counts=", ".join(f"{count} {verdict}" for verdict, count in counts_of(numbers).items()) or "none",
-    )
+    counts = ", ".join(f"{count} {verdict}" for verdict, count in counts_of(numbers).items()) or "none"
+    yield Line.RESULT.format(judgement, kind=judgement.kind.replace("_", " "), count=len(numbers), counts=counts)
     for remark in judgement.remarks:
         yield from textwrap.wrap(remark.sentence, LINE, initial_indent="! ", subsequent_indent="  ")
     yield f"strips: {', '.join(f'{verdict.sign} {verdict}' for verdict in Verdict)}"
@@ -120,8 +114,7 @@ def summary_lines(judgement: "Judgement") -> Iterator[str]:
     if judgement.costs:
         yield f"\nMedian error of the {MAIN[judgement.kind]}, and seconds of the call that took longest:"
     for cost in judgement.costs:
-        error = deviation_text(cost.error, cost.unit)
-        yield Line.COST.format(model=cost.model, error=error, seconds=cost.seconds)
+        yield Line.COST.format(cost, error=deviation_text(cost.error, cost.unit))
     yield PAPER
     yield from textwrap.wrap(paragraph(judgement), LINE, initial_indent="  ", subsequent_indent="  ")
 
@@ -150,8 +143,7 @@ def _largest_lines(numbers: Sequence[JudgedNumber]) -> Iterator[str]:
         return
     yield f"\nThe worst{f' {len(largest)}' if len(largest) > 1 else ''}:"
     for number in largest:
-        conditions = where_text(number.where) or "everywhere"
-        yield Line.LARGEST.format(quantity=number.quantity, conditions=conditions, shown=number.shown)
+        yield Line.LARGEST.format(number, conditions=where_text(number.where) or "everywhere")
     if largest[0].verdict is Verdict.OUTSIDE and (common := common_condition(largest, scenes)):
         yield f"  They share: {common}."
 
@@ -187,12 +179,9 @@ def _broken_line(series: JudgedSeries, part: VerdictRange) -> str:
     numbers = part.items(series.numbers)
     silent = ", without a warning" if series.quantity in SWEPT else ""
     warning = next((f", {number.reason}" for number in numbers if number.reason), silent)
-    return Line.BROKEN.format(
-        quantity=series.quantity,
-        place=f"{series.along} = {interval_text(part.start, part.stop)}" if series.along else where_text(series.where),
-        shown=max(numbers, key=lambda number: abs(number.difference)).shown,
-        warning=warning if part.verdict is Verdict.OUTSIDE else "",
-    )
+    largest = max(numbers, key=lambda number: abs(number.difference))
+    place = f"{series.along} = {interval_text(part.start, part.stop)}" if series.along else where_text(series.where)
+    return Line.BROKEN.format(largest, place=place, warning=warning if part.verdict is Verdict.OUTSIDE else "")
 
 
 def paragraph(judgement: "Judgement") -> str:
@@ -227,8 +216,7 @@ def paragraph(judgement: "Judgement") -> str:
     largest = largest_deviations(_of_scenes(numbers), 1)
     if largest and largest[0].verdict is Verdict.OUTSIDE:
         place = f" at {text}" if (text := where_text(largest[0].where)) else ""
-        fields = {"quantity": largest[0].quantity, "shown": largest[0].shown, "place": place}
-        sentences.append(Sentence.LARGEST.format(**fields))
+        sentences.append(Sentence.LARGEST.format(largest[0], place=place))
     if lost := len(numbers) - count:
         sentences.append(Sentence.LOST.format(lost=lost, count=len(numbers)))
     return " ".join(sentences)
@@ -307,8 +295,7 @@ def solver_lines(
     yield from ["", *problem_lines(checks)]
     if times:
         yield "\nseconds, and relative to bem3d: same grid and residual, one thread, each with its set-up:"
-    for t in times:
-        yield SolverPattern.TIME.format(cells=t.cells, seconds=t.seconds, ratio=t.seconds / t.bem3d)
+    yield from (SolverPattern.TIME.format(time, ratio=time.seconds / time.bem3d) for time in times)
     if len(times) > 1:
         power, of_bem3d = (growth(times, name) for name in ("seconds", "bem3d"))
         yield SolverPattern.GROWTH.format(power=power, of_bem3d=of_bem3d)

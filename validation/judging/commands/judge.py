@@ -1,7 +1,6 @@
 """Judge a user's models: where each is accurate enough, or whether a solver is right."""
 
 import argparse
-import os
 from collections.abc import Sequence
 from contextlib import ExitStack
 from itertools import zip_longest
@@ -59,7 +58,6 @@ def judge(arguments: argparse.Namespace) -> Exit:
         raise ValueError(f"FILE must be a Python file, or a name of judge --list, got {arguments.file!r}")
     tolerance = tolerance_of(arguments.tolerance)
     check_places(arguments, {Path(arguments.file): "is the model"})
-    _check_outside_of_folder(arguments)
     judgements: list[Judgement] = []
     with visited(arguments.file) as callers, ExitStack() as stack:
         chosen = [caller for caller in callers if arguments.only in (None, caller.name)]
@@ -84,16 +82,6 @@ def _folders(chosen: Sequence[Called], out: Path | None) -> list[Folder]:
         return []
     names = folder_names([caller.name for caller in chosen]) if len(chosen) > 1 else [""]
     return [Folder(out / name, kind=JUDGEMENT) for name in names]
-
-
-def _check_outside_of_folder(arguments: argparse.Namespace) -> None:
-    """Raises ValueError for a file of another option in the folder of --out, or below it."""
-    if arguments.out is None:
-        return
-    for option in ("json", "csv", "figure"):
-        path = getattr(arguments, option)
-        if path is not None and Path(os.path.realpath(path)).is_relative_to(os.path.realpath(arguments.out)):
-            raise ValueError(f"--{option} must be a file outside of --out, got {path} in {arguments.out}")
 
 
 def _write(judgements: list[Judgement], arguments: argparse.Namespace) -> None:

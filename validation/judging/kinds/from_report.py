@@ -186,17 +186,13 @@ def roll_under_load(strip: Strip) -> Outcome:
 
 
 def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Find:
-    """At each position of the coarse grid, to first order on cells of no size, and as much is left."""
+    """See `rolling.at_positions`."""
 
     def find(_: Report, engine: Engine) -> Iterator[Reference]:
-        coarse, fine = GRIDS
         problems = {(h, n): rolling.strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
         on = {key: outcomes[0][name] for key, outcomes in engine.map_groups(solve, problems).items()}
         for h in HEIGHTS:
-            finer = on[h, fine][fine // coarse // 2 :: fine // coarse]
-            left = (finer - on[h, coarse]) / (fine // coarse - 1)
-            for i, (value, change) in enumerate(zip((finer + left).tolist(), left.tolist(), strict=True)):
-                yield Reference({HEIGHT: h, "x / a": (i + 0.5) / coarse}, value, grid=abs(change / value))
+            yield from rolling.at_positions({HEIGHT: h}, *(on[h, cells] for cells in GRIDS))
 
     return find
 

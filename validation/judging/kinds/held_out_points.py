@@ -62,10 +62,7 @@ def _surfaces(model: Caller) -> Iterator[Finding]:
         for row in rows:
             load = load_of(row[stiffness.FORCE])
             value = model.call(height=face, spacing=SIDE / FACE_CELLS, modulus=MODULUS, load=load)
-            if isinstance(value, Failed) or value > 0:
-                yield Finding(row, value if isinstance(value, Failed) else float(value) / stiffness.UNIT)
-            else:
-                yield Finding(row, Failed(f"a stiffness of {value:.3g} N/m"))
+            yield Finding(row, stiffness.over_unit(value))
 
 
 # --- wheels ---

@@ -7,6 +7,7 @@ of two lengths; punches have another H, bandwidth and longest wave; surfaces are
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,14 +16,16 @@ import bem3d
 import mdr
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, extrapolated, student
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, extrapolated
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.judging.judgement import Conditions
+from validation.judging.kinds import rolling
 from validation.judging.kinds.references import Reference
-from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Q, WheelAtApproach, at_centres, octave, variance_of
+from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Q, WheelAtApproach, octave, variance_of
 from validation.judging.kinds.stiffness import BAND, FIRST, FORCE, H
+from validation.judging.kinds.surfaces import on_finer_grid
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
 from validation.simulation.rough_punch import PunchRoughness, Surface, press_lightly
 from validation.simulation.surface import draw_surface
@@ -166,22 +169,17 @@ def roll_oblong(strip: OblongStrip) -> Outcome:
 
 
 def at_positions(by_load: bool) -> Callable[[Engine], Iterator[Reference]]:
-    """At each position of the coarse grid, to first order on cells of no size, and as much is left."""
+    """See `rolling.at_positions`."""
 
     def solved(engine: Engine) -> Iterator[Reference]:
-        keys = [(scene, height, cells) for scene in SCENES for height in HEIGHTS for cells in GRIDS]
+        keys = list(product(SCENES, HEIGHTS, GRIDS))
         outcomes = engine.map(roll_oblong, [OblongStrip(*key, by_load) for key in keys])
         if lost := sum(float(outcome["failed"]) for outcome in outcomes):
             raise NotConvergedError(f"{lost:.0f} positions did not converge", ())
         on = {key: outcome["value"] for key, outcome in zip(keys, outcomes, strict=True)}
-        coarse, fine = GRIDS
-        for scene in SCENES:
-            for height in HEIGHTS:
-                finer = at_centres(on[scene, height, fine])
-                left = (finer - on[scene, height, coarse]) / (fine // coarse - 1)
-                for i, (value, change) in enumerate(zip((finer + left).tolist(), left.tolist(), strict=True)):
-                    where: Conditions = {**scene.where, HEIGHT: height, "x / a": (i + 0.5) / coarse}
-                    yield Reference(where, value, grid=abs(change / value))
+        for scene, height in product(SCENES, HEIGHTS):
+            where: Conditions = {**scene.where, HEIGHT: height}
+            yield from rolling.at_positions(where, *(on[scene, height, cells] for cells in GRIDS))
 
     return solved
 
@@ -299,13 +297,10 @@ def press_face(problem: PressedFace) -> Outcome:
 
 
 def faces(engine: Engine) -> Iterator[Reference]:
-    """On the finer of two grids; as much is left as both differ, by the root mean square over the faces of a load."""
+    """On the finer of two grids."""
     grids = FACE_CELLS, 2 * FACE_CELLS
     outcomes = engine.map_groups(press_face, {n: [PressedFace(face, n) for face in FACES] for n in grids})
-    coarse, fine = (np.log([outcome["stiffness"] for outcome in outcomes[n]]) for n in grids)
-    left = student(len(FACES)) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
-    for (i, j), value in np.ndenumerate(fine):
-        yield Reference({SURFACE: str(FACES[i]), FORCE: FACE_LOADS[j]}, math.exp(value), grid=float(left[j]))
+    return on_finer_grid([{SURFACE: str(face)} for face in FACES], FACE_LOADS, *(outcomes[n] for n in grids))
 
 
 OF_FACES: dict[str, Any] = {

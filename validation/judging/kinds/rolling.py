@@ -255,6 +255,14 @@ def at_centres(fine: FloatArray) -> FloatArray:
     return fine[times // 2 :: times]
 
 
+def at_positions(where: Conditions, coarse: FloatArray, fine: FloatArray) -> Iterator[Reference]:
+    """At each position of the coarse grid, extrapolated to zero cell size to first order, and as much is left."""
+    finer = at_centres(fine)
+    left = (finer - coarse) / (GRIDS[1] // GRIDS[0] - 1)
+    for i, (value, change) in enumerate(zip((finer + left).tolist(), left.tolist(), strict=True)):
+        yield Reference({**where, "x / a": (i + 0.5) / GRIDS[0]}, value, grid=abs(change / value))
+
+
 def _rolled_over_strip(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
     """What a model makes of a strip."""
     return answer_of(model, **on(surface, cells))

@@ -181,16 +181,23 @@ def draws(model: Caller, arguments: Mapping[str, Any], count: int) -> FloatArray
     return np.array(answers, dtype=float)
 
 
+def over_unit(stiffness: FloatArray | float | Failed) -> float | Failed:
+    """k / (E* L) of an answer [N/m], which must be positive."""
+    if isinstance(stiffness, Failed):
+        return stiffness
+    return float(stiffness) / UNIT if stiffness > 0 else Failed(f"a stiffness of {stiffness:.3g} N/m")
+
+
 def _by_formula(model: Caller, punch: JudgedPunch) -> Stiffness | Failed:
     value = model.call(**punch.arguments)
     if isinstance(value, Failed):
         return value
     mean, *deviation = np.atleast_1d(value).tolist()
-    if not mean > 0:
-        return Failed(f"a stiffness of {mean:.3g} N/m")
+    if isinstance(stiffness := over_unit(mean), Failed):
+        return stiffness
     if min(deviation, default=0.0) < 0:
         return Failed(f"a deviation of {deviation[0]:.3g} N/m")
-    return Stiffness(ModelAnswer(mean / UNIT), *(ModelAnswer(value / mean) for value in deviation))
+    return Stiffness(ModelAnswer(stiffness), *(ModelAnswer(value / mean) for value in deviation))
 
 
 def sampled(values: FloatArray, so_few: str = "", first_equal: NDArray[np.intp] | None = None) -> Stiffness | Failed:

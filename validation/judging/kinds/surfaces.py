@@ -8,9 +8,10 @@ from itertools import groupby, product
 import numpy as np
 
 from validation.analysis.statistics import FloatArray, jackknifed, ratio_of_means, student
-from validation.engine.engine import Engine
+from validation.engine.engine import Engine, Outcome
 from validation.judging import judgement
 from validation.judging.judgement import RATIO, Conditions
+from validation.judging.kinds import stiffness
 from validation.judging.kinds.judge import Finding, ModelAnswer
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H, load_of
@@ -39,12 +40,10 @@ def judged(model: Caller) -> Iterator[Finding]:
                 yield Finding(row, ModelAnswer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
                 continue
             value = model.call(height=height, spacing=SIDE / CELLS, modulus=MODULUS, load=load_of(row[FORCE]))
-            if not isinstance(value, Failed) and value > 0:
-                stiffness = float(value) / (MODULUS * SIDE)
-                answers.setdefault((hurst, row[FORCE]), []).append((stiffness, row))
-                yield Finding(row, stiffness)
-            else:
-                yield Finding(row, value if isinstance(value, Failed) else Failed(f"a stiffness of {value:.3g} N/m"))
+            answer = stiffness.over_unit(value)
+            if not isinstance(answer, Failed):
+                answers.setdefault((hurst, row[FORCE]), []).append((answer, row))
+            yield Finding(row, answer)
     for (hurst, force), pairs in sorted(answers.items()):
         if len(pairs) >= FEWEST:
             yield from _over_surfaces({H: hurst, FORCE: force}, pairs)
@@ -94,8 +93,15 @@ def solved(engine: Engine) -> Iterator[Reference]:
     }
     outcomes = engine.map_groups(press_lightly, groups)
     for hurst in HURSTS:
-        coarse, fine = (np.log([outcome["stiffness"] for outcome in outcomes[hurst, n]]) for n in (CELLS, 2 * CELLS))
-        left = student(SURFACES) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
-        for (i, j), value in np.ndenumerate(fine):
-            where: Conditions = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}
-            yield Reference(where, math.exp(value), grid=float(left[j]))
+        wheres: list[Conditions] = [{H: hurst, REALISATION: f"surface {i}"} for i in range(SURFACES)]
+        yield from on_finer_grid(wheres, FORCES, *(outcomes[hurst, n] for n in (CELLS, 2 * CELLS)))
+
+
+def on_finer_grid(
+    wheres: Sequence[Conditions], forces: Sequence[float], coarse: Sequence[Outcome], fine: Sequence[Outcome]
+) -> Iterator[Reference]:
+    """Of each surface, under its conditions; as much is left as both grids differ, as in `solved`."""
+    logs = [np.log([outcome["stiffness"] for outcome in outcomes]) for outcomes in (coarse, fine)]
+    left = student(len(wheres)) * np.sqrt(np.mean((logs[1] - logs[0]) ** 2, axis=0))
+    for (i, j), value in np.ndenumerate(logs[1]):
+        yield Reference({**wheres[i], FORCE: forces[j]}, math.exp(value), grid=float(left[j]))

@@ -103,7 +103,8 @@ def check_places(arguments: argparse.Namespace, read: Mapping[Path, str]) -> Non
             raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {path}")
         if path.parent == Path("/dev"):
             continue
-        inside = "is in the folder of --report" if _is_in(path, getattr(arguments, "report", None)) else ""
+        of = (folder for folder in ("out", "report") if _is_in(path, getattr(arguments, folder, None)))
+        inside = next((f"is in the folder of --{folder}" for folder in of), "")
         is_folder = "is a folder" if stat.S_ISDIR(_mode(path)) else ""
         if by := folders.get(path) or taken.get(os.path.realpath(path)) or is_folder or inside:
             raise ValueError(f"--{name} must be a file of its own, got {path}, which {by}")
