@@ -38,7 +38,7 @@ class Wheel:
 
     @property
     def approach(self) -> float:
-        """d_N of Hertz [m]."""
+        """The approach d_N of Hertz under the load [m]."""
         return hertz_approach(radius=self.radius, modulus=self.modulus, force=self.load)
 
     @property
@@ -82,7 +82,7 @@ class OnHalfSpace:
 
     @property
     def contact_of_hertz(self) -> ContactEllipse:
-        """Of the smooth body."""
+        """Hertz's contact of the smooth body, a circle, under its load."""
         return ContactEllipse(self.contact_radius, self.contact_radius, self.approach, self.body.load)
 
     def diagnose_contact_radius(self, name: str = "wheel") -> Iterator[str]:
@@ -216,7 +216,7 @@ def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
     damping = wheel.damping if isinstance(wheel, DampedWheel) else 0.0
     if ground.q_min <= resonance <= ground.q_max and not damping:
         return math.inf
-    q, weight = _nodes(resonance, ground, math.pi / wheel.contact_radius, damping * resonance)
+    q, weight = _resonance_quadrature(resonance, ground, math.pi / wheel.contact_radius, damping * resonance)
     force = force_spectrum_1d(
         q, lambda s: np.pi * s * ground.c2d(s), contact_radius=wheel.contact_radius, modulus=wheel.modulus
     )
@@ -224,8 +224,10 @@ def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
     return math.sqrt(2 * float(np.sum(weight * force * moved)))
 
 
-def _nodes(resonance: float, ground: RoughSurface, period: float, width: float) -> tuple[FloatArray, FloatArray]:
-    """Of a quadrature on panels that shrink towards the resonance and its width, none longer than a period of sin^2."""
+def _resonance_quadrature(
+    resonance: float, ground: RoughSurface, period: float, width: float
+) -> tuple[FloatArray, FloatArray]:
+    """Wavenumbers and weights of a quadrature: panels shrink towards the resonance and are no longer than a period."""
     found = []
     for side in (-1, 1):
         low, high = (max(side * (q - resonance), 0.0) for q in (ground.q_min, ground.q_max)[::side])
