@@ -82,7 +82,7 @@ def conditions_in_json(where: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def folder_names(texts: Sequence[str]) -> list[str]:
-    """Of a folder each, in this order: valid on every file system, and different on those without upper case.
+    """A folder name for each text, valid on every file system and unique on those that ignore case.
 
     "law (1)" and "Law [1]" are "law_1" and "Law_1-2". No name is longer than `LONGEST_NAME` bytes.
     """

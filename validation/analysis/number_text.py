@@ -102,7 +102,7 @@ def deviation_text(difference: float, unit: str, sign: str = "-") -> str:
 
 
 def level_in_decibels(level: float) -> str:
-    """ "-1.1 dB"."""
+    """The level rounded to 0.1 dB, with its sign: "-1.1 dB"."""
     return f"{round(level, 1) + 0.0:+.3g} dB"
 
 
