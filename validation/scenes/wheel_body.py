@@ -216,7 +216,7 @@ def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
     damping = wheel.damping if isinstance(wheel, DampedWheel) else 0.0
     if ground.q_min <= resonance <= ground.q_max and not damping:
         return math.inf
-    q, weight = _resonance_quadrature(resonance, ground, math.pi / wheel.contact_radius, damping * resonance)
+    q, weight = _nodes(resonance, ground, math.pi / wheel.contact_radius, damping * resonance)
     force = force_spectrum_1d(
         q, lambda s: np.pi * s * ground.c2d(s), contact_radius=wheel.contact_radius, modulus=wheel.modulus
     )
@@ -224,9 +224,7 @@ def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
     return math.sqrt(2 * float(np.sum(weight * force * moved)))
 
 
-def _resonance_quadrature(
-    resonance: float, ground: RoughSurface, period: float, width: float
-) -> tuple[FloatArray, FloatArray]:
+def _nodes(resonance: float, ground: RoughSurface, period: float, width: float) -> tuple[FloatArray, FloatArray]:
     """Wavenumbers and weights of a quadrature: panels shrink towards the resonance and are no longer than a period."""
     found = []
     for side in (-1, 1):

@@ -200,13 +200,13 @@ class WaveBand(TransverseStructure):
 
     def mean_square(self, q: ArrayLike, transfer: Filter, *, semi_axis: float) -> FloatArray:
         wave = np.asarray(q, dtype=np.float64)[..., np.newaxis]
-        t, dt = self._slope_quadrature(wave, semi_axis)
+        t, dt = self._slopes(wave, semi_axis)
         return np.asarray(transfer(wave, wave * t) ** 2 @ dt / self.alpha)
 
     def waves_across(self, q: ArrayLike, *, semi_axis: float) -> int:
-        return int(self._slope_quadrature(np.asarray(q, dtype=np.float64)[..., np.newaxis], semi_axis)[1].size)
+        return int(self._slopes(np.asarray(q, dtype=np.float64)[..., np.newaxis], semi_axis)[1].size)
 
-    def _slope_quadrature(self, wave: FloatArray, semi_axis: float) -> tuple[FloatArray, FloatArray]:
+    def _slopes(self, wave: FloatArray, semi_axis: float) -> tuple[FloatArray, FloatArray]:
         """Nodes k_y / k_x and weights over half of the band: the same for all waves, or of short ones a row a wave."""
         # power and filter are even in t = k_y / k_x: half of the range is enough
         longest = float(wave.max(initial=0.0)) * self.alpha * semi_axis
