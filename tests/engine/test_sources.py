@@ -22,7 +22,7 @@ def edited(monkeypatch):
         monkeypatch.setattr(
             sources, "_source", lambda p: p.read_bytes().replace(old, new) if p == path else p.read_bytes()
         )
-        for name in ("_code", "_meaning"):
+        for name in ("_code", "_file_digest"):
             monkeypatch.setattr(sources, name, anew(getattr(sources, name), path))
         for name in ("version_of", "modules_behind"):
             monkeypatch.setattr(sources, name, cache(getattr(sources, name).__wrapped__))

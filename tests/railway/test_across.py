@@ -228,14 +228,14 @@ def test_the_nearest_alpha_and_factor_are_those_by_which_the_reference_was_made(
 
     def wider(factor):
         same = replace(contact, along=factor * contact.along, across=factor * contact.across)
-        return across.in_counted(scene, BED, 0.5, keep, same)
+        return across.a3_in_assessed_bands(scene, BED, 0.5, keep, same)
 
     def remington(alpha):
-        return across.in_counted(scene, filters.REMINGTON_THERE, alpha, keep)
+        return across.a3_in_assessed_bands(scene, filters.REMINGTON_THERE, alpha, keep)
 
     assert across._least_off(wider, wider(1.3))[0] == pytest.approx(1.3, rel=5e-3)
     assert across._least_off(remington, remington(1.7))[0] == pytest.approx(1.7, rel=5e-3)
-    assert np.allclose(across.in_counted(scene, BED, 0.5, keep, larger), wider(1.3))
+    assert np.allclose(across.a3_in_assessed_bands(scene, BED, 0.5, keep, larger), wider(1.3))
 
 
 @catches("forces that are not A-weighted").at(

@@ -13,7 +13,7 @@ Profile = Literal["quick", "full"]
 
 
 class Chapter(StrEnum):
-    """Of the report, in the order of its argument."""
+    """A chapter of the report; the order is that of its argument."""
 
     EXACT = "What is known exactly"
     PRESSED = "Rough punches: the stiffness and its fluctuation"
@@ -75,7 +75,7 @@ class Case:
     timed: bool = False
 
     def evidence(self, result: Any) -> "Evidence":
-        """Of a result, as the study declares it."""
+        """The tables, numbers, claims and charts that the study derives from a result of `run`."""
         return self.study.evidence(result)
 
     @property
@@ -84,7 +84,7 @@ class Case:
         return self.study.claims[0].says if self.study.claims else ""
 
     def settings(self, profile: Profile, seed: int | None, scene: Any = None, own: str = "") -> Any:
-        """Of that size, with the seed where it draws anything, and the scene or the file of others where it has one."""
+        """The settings of a profile; seed, scene and the file `own` replace those fields that the settings have."""
         settings = self.quick if profile == "quick" else self.full
         if seed is not None and hasattr(settings, "seed"):
             settings = replace(settings, seed=seed)

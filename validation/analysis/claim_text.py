@@ -17,7 +17,7 @@ QUANTITY = "quantity"
 
 
 class Direction(StrEnum):
-    """Of a value relative to its reference."""
+    """Where a value lies relative to its reference, as a verb and a comparative."""
 
     ABOVE = "above"
     BELOW = "below"
@@ -189,7 +189,7 @@ AGREE = re.compile(r"\bagree(s?) with\b")
 
 
 def in_sentence(clause: str) -> str:
-    """In the middle of a sentence; names that begin with several capitals stay."""
+    """The clause with a small first letter; a name that begins with two capitals, as BEM, keeps them."""
     return clause if clause[:2].isalpha() and clause[:2].isupper() else clause[:1].lower() + clause[1:]
 
 
@@ -296,7 +296,7 @@ MAX_SAMPLE = 100.0
 
 
 def cell_of(number: Number, printer: Printer) -> VerdictCell:
-    """Of a table: the number, where it is the worst, and how many times the sample would decide."""
+    """A cell of a table: the number, the place of the worst, and how many times the sample would decide it."""
     place = f" at {place_text(number.where[WORST_AT])}" if WORST_AT in number.where else ""
     needed = number.sample_needed if number.verdict is Verdict.INCONCLUSIVE else 0.0
     after = f"needs {needed:.1f} times the sample" if 0 < needed < MAX_SAMPLE else ""

@@ -46,7 +46,7 @@ RESERVED = {"con", "prn", "aux", "nul", "conin$", "conout$", "clock$"} | {
 
 
 def as_json(value: object) -> bytes:
-    """In the order of the value, a line a row, in which stands what is nested deeper; strict: no NaN, no infinity."""
+    """Strict JSON in UTF-8, keys in their order, a row of a table on one line; NaN and infinity raise ValueError."""
     return (_nested(value, LEVELS) + "\n").encode()
 
 
@@ -66,7 +66,7 @@ def _nested(value: object, levels: int) -> str:
 
 
 def plain_name(text: str) -> str:
-    """Of a file or an address: "k / (E* L)" is "k_E_L"."""
+    """The text as a part of a file name or an address: "k / (E* L)" becomes "k_E_L"."""
     return NO_NAME.sub("_", text).strip("_")
 
 
@@ -77,17 +77,17 @@ def ascii_text(text: str) -> str:
 
 
 def condition_key(name: str) -> str:
-    """Of a condition in JSON and CSV: "wavelength [mm]" is wavelength_mm, "q_r L / 2π" is q_r_L_2pi."""
+    """The key of a condition in JSON and CSV: "wavelength [mm]" becomes wavelength_mm, "q_r L / 2π" q_r_L_2pi."""
     return CONDITION_KEYS.get(name) or NO_KEY.sub("_", ascii_text(name).replace("'", "")).strip("_")
 
 
 def conditions_in_json(where: Mapping[str, Any]) -> dict[str, Any]:
-    """With names that are keys."""
+    """The same conditions, each name replaced by its `condition_key`."""
     return {condition_key(name): value for name, value in where.items()}
 
 
 def folder_names(texts: Sequence[str]) -> list[str]:
-    """Of a folder each, in this order: valid on every file system, and different on those without upper case.
+    """A folder name for each text, valid on every file system and unique on those that ignore case.
 
     "law (1)" and "Law [1]" are "law_1" and "Law_1-2". No name is longer than `LONGEST_NAME` bytes.
     """
@@ -114,12 +114,12 @@ def _shortened(name: str, end: str) -> str:
 
 
 def data_name(case: str, table: str) -> str:
-    """Of a table in the lists of columns: of a quantity by its key."""
+    """The name "case-table" by which lists of columns find a table; a table of a quantity has the key of that."""
     return f"{case}-{getattr(table, 'key', '') or plain_name(table)}"
 
 
 def csv_name(case: str, table: str) -> str:
-    """Of the file of a table: `data_name` in ASCII; of a long one the beginning, and a digest that keeps it apart."""
+    """The file name of a table: `data_name` in ASCII; a long one is cut, and ends with a digest that keeps it apart."""
     name = plain_name(ascii_text(data_name(case, table)))
     if len(name) > LONGEST_STEM:
         digest = hashlib.sha256(name.encode()).hexdigest()[:DIGITS]
@@ -182,7 +182,7 @@ def as_written(table: Table) -> Table:
 
 
 def _typed_column(cells: Sequence[str]) -> Sequence[object]:
-    """Of one column, which has one type."""
+    """The cells as booleans, integers, floats (an empty cell is NaN) or texts: the first type that all of them have."""
     if all(cell in BOOLEAN for cell in cells):
         return [BOOLEAN[cell] for cell in cells]
     if all(INTEGER.fullmatch(cell) for cell in cells):

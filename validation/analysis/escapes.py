@@ -25,14 +25,14 @@ def is_printable(text: str) -> bool:
 
 
 def cell_text(text: str) -> str:
-    """Of a cell in CSV: a text that a spreadsheet would compute begins with a quote; a sign alone is none."""
+    """The text as a cell of CSV; a quote precedes what a spreadsheet would compute, but not a lone sign."""
     kept = printable(text)
     is_formula = len(text) > 1 and (text[0] in FORMULAS or text.lstrip()[:1] in tuple(FORMULAS))
     return QUOTE + kept if is_formula else kept
 
 
 def json_text(value: object) -> str:
-    """On one line, strict: no NaN, no infinity; what is not printable as the escapes of JSON."""
+    """The value as JSON on one line; unprintable characters are escaped, NaN and infinity raise ValueError."""
     text = json.dumps(value, allow_nan=False, ensure_ascii=False)
     return text if is_printable(text) else "".join(c if _harmless(c) else json.dumps(c)[1:-1] for c in text)
 

@@ -78,7 +78,7 @@ class Number:
 
     @property
     def verdict(self) -> Verdict:
-        """See `verdict_of`."""
+        """The verdict on the difference from the reference, by the 95 % interval and the tolerance."""
         return verdict_of(self.difference, self.uncertainty, self.tolerance)
 
     @property
@@ -180,12 +180,12 @@ class Table:
         return self.rows(np.logical_and.reduce([self[name] == value for name, value in equal.items()]))
 
     def rows(self, kept: ArrayLike) -> "Table":
-        """By a mask, or by their numbers."""
+        """The table with the kept rows alone; kept: a mask over the rows, or their indices."""
         return replace(self, columns={name: self[name][np.asarray(kept)].tolist() for name in self.columns})
 
 
 def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
-    """Of one row at least; the columns of all, NaN where a row has no such cell."""
+    """A table of at least one row; it has the columns of all, and NaN where a row lacks a cell."""
     columns = dict.fromkeys(column for row in rows for column in row)
     return Table(name, {column: [row.get(column, math.nan) for row in rows] for column in columns})
 
@@ -211,7 +211,7 @@ class ClaimStatus(StrEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> "ClaimStatus | None":
-        """By its value in files of schema 1."""
+        """The status whose value in files of schema 1 this is; None where there is none."""
         return next((status for status, earlier in EARLIER_STATUSES.items() if earlier == value), None)
 
     @property
@@ -234,7 +234,7 @@ EARLIER_STATUSES = {
 
 
 def claim_status(numbers: Iterable[Number], inside: Iterable[Number], confirmed_by: Verdict) -> ClaimStatus:
-    """Of a claim with these numbers; inside: those within its limits, none without limits."""
+    """Whether these numbers support a claim; inside: those within its limits, none where it has no limits."""
     verdicts = {number.verdict for number in numbers}
     if verdicts == {confirmed_by}:
         return ClaimStatus.SUPPORTED
@@ -285,11 +285,11 @@ class JudgedClaim:
 
     @property
     def status(self) -> ClaimStatus:
-        """By the verdicts of all numbers, or of those inside the limits; one counterexample contradicts."""
+        """The status by the verdicts of all numbers, or of those inside the limits; one counterexample refutes it."""
         return claim_status(self.numbers, self.inside, self.confirmed_by)
 
     def count(self, verdict: Verdict) -> int:
-        """Of the numbers that test it."""
+        """How many of the numbers that test the claim have this verdict."""
         return sum(number.verdict is verdict for number in self.numbers)
 
 

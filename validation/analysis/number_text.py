@@ -42,17 +42,17 @@ def half_width_text(half_width: float) -> str:
 
 
 def short(value: float, digits: int = 2) -> str:
-    """With so many digits, without a power of ten where that can be."""
+    """The value with so many significant digits, then as %g prints it: "0.052", "1e+07"."""
     return f"{float(f'{value:.{digits}g}'):g}"
 
 
 def two_digits(value: float) -> str:
-    """With a power of ten where that is shorter; "unknown" where it is not finite."""
+    """The value with two significant digits, "1.2e+03" from 100 on; "unknown" where it is not finite."""
     return f"{value:.2g}" if math.isfinite(value) else "unknown"
 
 
 def signed(value: float, digits: int) -> str:
-    """With its sign, but for a zero, and so many decimals; a dash where it is not finite."""
+    """The value with so many decimals and its sign, a zero without one; a dash where it is not finite."""
     if not math.isfinite(value):
         return NONE
     return f"{rounded:+.{digits}f}" if (rounded := round(value, digits)) else f"{0:.{digits}f}"
@@ -74,7 +74,7 @@ def half_open_text(name: str, low: float, high: float, *, closed: bool = False) 
 
 
 def place_value(value: float) -> str:
-    """Of a condition: three digits, or the whole of a number of four to six."""
+    """The value of a condition with three digits; from 1000 to 1e6 it is rounded to a whole number."""
     return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.3g}"
 
 
@@ -102,7 +102,7 @@ def deviation_text(difference: float, unit: str, sign: str = "-") -> str:
 
 
 def level_in_decibels(level: float) -> str:
-    """ "-1.1 dB"."""
+    """The level rounded to 0.1 dB, with its sign: "-1.1 dB"."""
     return f"{round(level, 1) + 0.0:+.3g} dB"
 
 
@@ -140,7 +140,7 @@ def off_by(number: Number) -> str:
 
 
 def share(number: Number) -> str:
-    """Of a whole, in per cent."""
+    """The share that a number between 0 and 1 is, in per cent with its interval: "12 ± 3 %"."""
     half = f" ± {100 * number.uncertainty:.2g}" if number.uncertainty else ""
     return f"{100 * number.value:.2g}{half} %"
 
@@ -151,7 +151,7 @@ def times_source(number: Number) -> str:
 
 
 def decibels(number: Number) -> str:
-    """To a tenth, with an interval that has one: "+0.2 ± 0.5 dB", "+0.2 dB", "less than 0.05 dB"."""
+    """A number in dB and its interval, rounded to 0.1 dB: "+0.2 ± 0.5 dB", "+0.2 dB", "less than 0.05 dB"."""
     value, half_width = (round(x, 1) + 0.0 for x in (number.value, number.uncertainty))
     if not half_width:
         return f"{value:+.1f} dB" if value else "less than 0.05 dB"
@@ -159,7 +159,7 @@ def decibels(number: Number) -> str:
 
 
 def decibels_rms(number: Number) -> str:
-    """Of decibels, which has no sign: "2.5 dB rms"."""
+    """A root mean square in dB, which has no sign: "2.5 dB rms"."""
     return f"{decibels(number).removeprefix('+')} rms"
 
 

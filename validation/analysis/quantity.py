@@ -38,7 +38,7 @@ class Quantity(str):
 
 
 def key_of(label: str) -> str:
-    """Of a quantity; of any other text what a file name has of it."""
+    """The key of a quantity; any other text as `plain_name` has it."""
     return label.key if isinstance(label, Quantity) else plain_name(label)
 
 

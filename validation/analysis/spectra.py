@@ -54,7 +54,7 @@ class Bands:
     def sums(
         self, q: NDArray[np.floating], values: NDArray[np.floating | np.complexfloating]
     ) -> NDArray[np.complex128]:
-        """Of the values, along the last axis, at the wavenumbers in each band."""
+        """Add up the values at the wavenumbers in each band: (..., waves) becomes (..., bands)."""
         inside = (q[:, np.newaxis] >= self.edges[:-1]) & (q[:, np.newaxis] < self.edges[1:])
         return np.asarray(values @ inside.astype(np.float64))
 
@@ -80,7 +80,7 @@ class Waves:
 
 
 def waves(series: ArrayLike, *, spacing: float) -> Waves:
-    """Of a series, or of several along the last axis, that are periodic and need no window."""
+    """The harmonics of periodic series along the last axis, by an FFT without a window; spacing of points [m]."""
     x = np.asarray(series, dtype=np.float64)
     points = x.shape[-1]
     last = (points - 1) // 2
@@ -296,7 +296,7 @@ class NominalBands:
 
     @property
     def numbers(self) -> range:
-        """n of each band."""
+        """The numbers n of the bands, centre wavelength 10^(n/10) m, descending."""
         return range(self.longest, self.shortest - 1, -1)
 
     def __len__(self) -> int:
@@ -313,7 +313,7 @@ class NominalBands:
         return f"{1000 * self.nominal[0]:g} to {1000 * self.nominal[-1]:g} mm"
 
     def names(self, of: ArrayLike) -> str:
-        """Of the bands where a mask is true, neighbours together: "2000 to 800, 31.5 mm", or "none"."""
+        """Name the bands where a mask is true, neighbours as one range: "2000 to 800, 31.5 mm", or "none"."""
         inside = np.flatnonzero(np.asarray(of, dtype=bool))
         if not inside.size:
             return "none"
@@ -323,7 +323,7 @@ class NominalBands:
 
     @property
     def wavelengths(self) -> FloatArray:
-        """Exact centres 10^(n/10) [m]."""
+        """Exact centres 10^(n/10) of the bands [m], descending."""
         return np.asarray(10 ** (np.array(self.numbers) / 10))
 
     @property
@@ -333,7 +333,7 @@ class NominalBands:
 
     @property
     def edges(self) -> FloatArray:
-        """Of all bands [rad/m], ascending, one more than there are bands."""
+        """The edges of the bands [rad/m], ascending, shape (bands + 1,)."""
         return np.asarray(2 * np.pi * 10 ** ((np.arange(len(self) + 1) - self.longest - 0.5) / 10))
 
     def within(self, longest: float, shortest: float) -> "NominalBands":

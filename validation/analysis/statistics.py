@@ -42,7 +42,7 @@ class Estimate:
         return self.half_width_among(1)
 
     def half_width_among(self, points: float) -> float:
-        """Of an interval that holds at 95 % together with those of the other points of a range, by Bonferroni."""
+        """Half of the interval that covers this point and the others of its range at once with 95 %, by Bonferroni."""
         return student(self.samples - 1, 1 - 0.05 / points) * self.error
 
     def minus(self, other: "Estimate") -> "Estimate":
@@ -134,7 +134,7 @@ def log_ratio_of_means(values: FloatArray, references: FloatArray, weights: Floa
 
 
 def extrapolated(coarse: Estimate, finer: Estimate, among: int = 1) -> tuple[Estimate, float]:
-    """To cells of no size, to first order, and what that leaves open: half of the way there, and its interval.
+    """Extrapolate to zero cell size to first order; the grid error is half of that change, and its interval.
 
     finer: the change from these cells to half as long ones, on the same realisations; among: how many points of a range
     have intervals that hold at once.
@@ -226,7 +226,7 @@ class Linearised:
 
     @property
     def error(self) -> float:
-        """Standard error."""
+        """The standard error: the root of the sum of squares of the influences."""
         return float(np.sqrt((self.influence**2).sum()))
 
     @property
@@ -241,7 +241,7 @@ class Linearised:
         return min(2 * float(squares.sum()) ** 2 / float(spread), most) if spread > 0 else most
 
     def half_width_among(self, points: float) -> float:
-        """Of an interval that holds at 95 % together with those of the other points of a range, by Bonferroni."""
+        """Half of the interval that covers this point and the others of its range at once with 95 %, by Bonferroni."""
         return student(self.freedom, 1 - 0.05 / points) * self.error if self.error > 0 else 0.0
 
     @property
@@ -270,14 +270,14 @@ class Resolved:
 
 
 def on_no_size(grids: Sequence[Linearised]) -> Resolved:
-    """To first order from the two finest grids; how far that is from the next two."""
+    """Extrapolate the two finest grids to zero cell size; grid error: the change since the two before."""
     coarse, middle, fine = grids[-3:]
     grid_error = abs(2 * (fine.value - middle.value) - (middle.value - coarse.value))
     return Resolved(2.0 * fine - middle, grid_error)
 
 
 def on_finest(grids: Sequence[Linearised]) -> Resolved:
-    """As it is on the finest grid; by how much that changed it."""
+    """The value on the finest grid, not extrapolated; grid error: the change from the grid before."""
     coarse, fine = grids[-2:]
     return Resolved(fine, abs(fine.value - coarse.value) if math.isfinite(fine.value) else 0.0)
 
@@ -296,17 +296,17 @@ class Moments:
     variance: Linearised
 
     def with_step(self, fine: "Moments", coarse: "Moments") -> "Moments":
-        """From the coarse grid to the fine one."""
+        """Add the change of both moments from the coarse grid to the fine one, on the same realisations."""
         return Moments(self.mean + fine.mean - coarse.mean, self.variance + fine.variance - coarse.variance)
 
     @property
     def log_mean(self) -> Linearised:
-        """ln m."""
+        """The logarithm of the mean, ln m."""
         return log(self.mean)
 
     @property
     def log_relative_deviation(self) -> Linearised:
-        """ln(sqrt(V) / m)."""
+        """The logarithm of the coefficient of variation, ln(sqrt(V) / m)."""
         return 0.5 * log(self.variance) - log(self.mean)
 
 

@@ -27,7 +27,7 @@ class Settings(string.Formatter):
 
 
 def _title(clauses: Iterable[str]) -> str:
-    """Clauses in a sentence."""
+    """Join the clauses to one title, "First; second; third"."""
     return "; ".join(in_sentence(clause) if i else clause for i, clause in enumerate(clauses))
 
 

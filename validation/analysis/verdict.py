@@ -21,7 +21,7 @@ class Verdict(StrEnum):
 
     @classmethod
     def _missing_(cls, value: object) -> "Verdict | None":
-        """By its value in files of schema 1."""
+        """The verdict whose value in files of schema 1 this is; None where there is none."""
         return next((verdict for verdict, earlier in EARLIER_VERDICTS.items() if earlier == value), None)
 
     @property

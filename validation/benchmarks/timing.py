@@ -159,9 +159,9 @@ class TimedProblem:
 
 
 def configurations_of(problem: Any) -> tuple[Configuration, ...]:
-    """Models that are found, those whose resolution charts vary themselves left out, and what the problem has.
+    """All contact models that serve the problem, but for those with `charted` false, then its own configurations.
 
-    problem: also has a `scene`, None where no models are found, and `served`, what a model may have of it.
+    problem: has `configurations`, a `scene` and `served`, the quantities by which models are chosen.
     """
     own = problem.configurations()
     labels, targets = {each.label for each in own}, [Target(problem.scene, quantity) for quantity in problem.served]

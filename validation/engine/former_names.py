@@ -32,12 +32,12 @@ def with_former_keys(record: Mapping[str, Any], former: Mapping[str, str]) -> di
 
 
 def value_of(record: Mapping[str, Any], key: str, former: str) -> Any:
-    """Of a file that may be from before the key had its name. Raises KeyError where it has neither."""
+    """Read record[key], or record[former] where the file was written before the key was renamed. Raises KeyError."""
     return record[key] if key in record else record[former]
 
 
 def renamed_field(former: str, current: str) -> Callable[[type[Class]], type[Class]]:
-    """Of a dataclass: its former keyword and attribute work, with a FutureWarning."""
+    """Decorate a dataclass, so that the former keyword and attribute of a field still work, with a FutureWarning."""
 
     def warn(owner: str) -> None:
         warnings.warn(f"{owner}.{former} is named {current} now", FutureWarning, stacklevel=3)

@@ -46,7 +46,7 @@ def version_of(roots: tuple[str, ...], without: tuple[str, ...] = ()) -> str:
     paths = sorted({path for name in behind for path in _files_of(name)})
     if not paths:
         raise RuntimeError(f"the source of {roots[0]} is not to be found")
-    return _digest(_meaning(path) for path in paths)
+    return _digest(_file_digest(path) for path in paths)
 
 
 def version_behind(module: str, problem: object) -> str:
@@ -88,7 +88,7 @@ def modules_behind(module: str, without: frozenset[str] = frozenset()) -> frozen
         behind.add(name)
         if _imports_by_name(name):
             return frozenset(behind | set(modules())) - {ENGINE, *without}
-        ahead |= _next(name, _path(name)) - behind - {ENGINE, *without}
+        ahead |= _next(name, _source_path(name)) - behind - {ENGINE, *without}
     return frozenset(behind)
 
 
@@ -110,8 +110,8 @@ def _values(problem: object) -> Iterator[object]:
         yield from _values(part)
 
 
-def _path(module: str) -> Path | None:
-    """Of the project, or of the user's own script; None for a library."""
+def _source_path(module: str) -> Path | None:
+    """The source file of a module of the project, or of the user's own script; None for a library."""
     if module in modules():
         return modules()[module]
     loaded = getattr(sys.modules.get(module), "__file__", None)
@@ -122,7 +122,7 @@ def _path(module: str) -> Path | None:
 
 def _files_of(module: str) -> tuple[Path, ...]:
     """Its source, and the data beside it where it asks for its own place."""
-    path = _path(module)
+    path = _source_path(module)
     return () if path is None else (path, *_data_beside(module, path))
 
 
@@ -181,13 +181,13 @@ class _WithoutDocstrings(ast.NodeTransformer):
 
 
 @cache
-def _meaning(path: Path) -> bytes:
-    """Of code and of data: what changes with it."""
+def _file_digest(path: Path) -> bytes:
+    """The digest of a file: of code without comments and docstrings, of data all bytes."""
     return _code(path).digest if path.suffix == ".py" else hashlib.sha256(_source(path)).digest()
 
 
 def _imports_by_name(module: str) -> bool:
-    path = _path(module)
+    path = _source_path(module)
     if path is None or module == FACE:
         return False
     words = _code(path).words

@@ -106,7 +106,7 @@ def roughness_pairs(scene: Pressed, grounds: Mapping[str, RoughSurface | None]) 
 
 
 def waves_of(ground: RoughSurface, speed: float | None) -> str:
-    """With their frequencies where the wheel has a speed."""
+    """The wavelengths of the roughness in words; with a speed also their angular frequencies [rad/s]."""
     if speed is None or ground.is_single:
         return ground.waves
     return f"{ground.waves}, {ground.q_min * speed:.4g} to {ground.q_max * speed:.4g} rad/s"

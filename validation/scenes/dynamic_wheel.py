@@ -96,5 +96,5 @@ def load_wheel_scene(scene: str | Path) -> RollingScene:
 
 
 def _warn(sentence: str) -> None:
-    """To the line that has called the earlier name."""
+    """Warns, with the line that has called the earlier name, that this goes with the next release."""
     warnings.warn(f"{sentence}; the earlier name goes with the next release", FutureWarning, stacklevel=3)

@@ -80,7 +80,7 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
 
     @property
     def kind(self) -> Shape:
-        """The shape."""
+        """The kind of a pressed scene is the shape of its body."""
         return self.shape
 
     @property
@@ -131,7 +131,7 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
         return "" if self.ground else exact
 
     def describe(self) -> Pairs:
-        """Body, contact and roughness."""
+        """Pairs (name, text with units) on body, contact and roughness."""
         if self.shape == "sphere":
             return *body_pairs("sphere", self.size, self), *roughness_pairs(self, {"waves": self.ground})
         body = ("punch", f"side L = {in_unit(self.size, 'length')}, load {in_unit(self.load, 'force')}")

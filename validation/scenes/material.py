@@ -81,7 +81,7 @@ class Material:
 
     @property
     def modulus(self) -> float:
-        """E* [Pa]."""
+        """The contact modulus E* of both bodies [Pa]: given as such, or from their elastic constants."""
         if self.contact_modulus is not None:
             return self.contact_modulus
         body = self._body

@@ -310,7 +310,7 @@ class MeasuredHeights:
 
     @property
     def longest(self) -> float:
-        """Longest wave [m]."""
+        """The longest wavelength, 2 pi / q_min [m]."""
         return 2 * math.pi / self.q_min
 
     @property

@@ -24,7 +24,7 @@ AGREE = 2e-3
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Of a column that runs evenly: the step, and the number of each row on the grid, which has all rows or gaps."""
+    """Positions of evenly spaced rows: the step, and the number of each row on the grid, which may have gaps."""
 
     step: float
     first: float

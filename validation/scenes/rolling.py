@@ -152,7 +152,7 @@ class RollingScene(OnTrack, SceneDefaults):
 
     @property
     def quantities(self) -> tuple[SceneQuantity, ...]:
-        """Of the motion where it moves, and of the force on a wheel that keeps its approach."""
+        """Quantities of the force at a prescribed approach; with a mass, those of the motion come first."""
         return ROLLING if self.mass is None else (*MOVING, *ROLLING)
 
     def bands(self, quantity: str) -> FloatArray:
@@ -161,7 +161,7 @@ class RollingScene(OnTrack, SceneDefaults):
 
     @property
     def smooth_contact(self) -> ContactEllipse:
-        """Of Hertz."""
+        """The contact of Hertz of the smooth wheel."""
         return self.contact_of_hertz
 
     @property
@@ -200,7 +200,7 @@ class RollingScene(OnTrack, SceneDefaults):
 
     @property
     def roughness_ratio(self) -> float:
-        """h / d [-]."""
+        """The rms height over the approach, h / d [-]."""
         return self.rms / self.approach
 
     def diagnose(self) -> tuple[str, ...]:

@@ -54,7 +54,7 @@ class RollingQuantity:
 
     @cached_property
     def amplification(self) -> float:
-        """Of the force on a wheel that moves over that on one that keeps its approach, one at least [-].
+        """The rms force on a moving wheel over that on one at a prescribed approach, at least one [-].
 
         Near its resonance a wheel presses deeper than roughness alone, and leaves linear theory earlier.
         """
@@ -74,7 +74,7 @@ class RollingQuantity:
 
     @cached_property
     def bands(self) -> Bands:
-        """Of wavenumbers along the track [rad/m]; ValueError where there is none."""
+        """The bands of wavenumbers along the track that have levels [rad/m]. Raises ValueError where none is left."""
         if self.name == "force-rms":
             return Bands((0.0, math.inf))
         if self._no_band:
@@ -84,7 +84,7 @@ class RollingQuantity:
 
     @property
     def _edges(self) -> tuple[float, ...]:
-        """Of one-third octaves; fewer than two where there is none."""
+        """Edges of the one-third octaves that are left [rad/m]; empty or one where no band is."""
         first = max(self._longest_counted, self._above_resonance)
         return Bands.around(math.pi / self.scene.contact_radius, first, self.q_max).edges if first < self.q_max else ()
 
@@ -122,7 +122,7 @@ class RollingQuantity:
         )
 
     def transfer(self, q: FloatArray) -> FloatArray:
-        """From the force to what is wanted: one, or omega^2 / |k - M omega^2 + i c omega|, omega = q v0 [-, 1/kg]."""
+        """The quantity over the force: 1, or omega^2 / |k - M omega^2 + i c omega| with omega = q v0 [- or 1/kg]."""
         if not self.dynamic:
             return np.ones_like(q)
         body = self.scene.body
@@ -146,7 +146,7 @@ class RollingQuantity:
 
     @property
     def nodes(self) -> int:
-        """Of the quadrature over all bands."""
+        """The number of nodes of the quadrature over all bands."""
         if self.name == "force-rms" or self._no_band:
             return NODES
         return sum(q.size for q, _ in self._quadratures)

@@ -69,7 +69,7 @@ class Roughness:
 
     @property
     def edges(self) -> tuple[float, float]:
-        """q_min and q_max [rad/m]."""
+        """The ends of the spectrum, (q_min, q_max) [rad/m]."""
         return self.q_min, self.q_max
 
     def c2d(self, q: ArrayLike) -> NDArray[np.float64]:
@@ -83,15 +83,15 @@ class Roughness:
         return f"{longest} to {shortest}, Hurst exponent {self.hurst:.3g}"
 
     def notes(self) -> tuple[str, ...]:
-        """Nothing is wrong about it."""
+        """Notes on its quality: none, since it is generated and not measured."""
         return ()
 
     def beyond_a_spectrum(self) -> tuple[str, ...]:
-        """The spectrum tells all of it."""
+        """What the spectrum leaves out: nothing of generated roughness."""
         return ()
 
     def not_gaussian(self) -> str:
-        """Its heights are Gaussian."""
+        """Why the heights are not Gaussian: empty, since generated ones are."""
         return ""
 
 

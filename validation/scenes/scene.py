@@ -54,7 +54,7 @@ ENSEMBLE_MEAN, SINGLE_SURFACE = "ensemble mean", "single surface"
 
 
 class ContactEllipse(NamedTuple):
-    """Of the bodies without roughness: semi-axes a_x along the track and a_y, and the approach [m], and F [N]."""
+    """Hertz's contact of the smooth bodies: semi-axes a_x along the track and a_y [m], approach [m], force F [N]."""
 
     along: float
     across: float
@@ -148,19 +148,19 @@ class Scene(Protocol):
 
     @property
     def smooth_contact(self) -> ContactEllipse | None:
-        """None under a flat punch."""
+        """The contact ellipse of the bodies without roughness; None under a flat punch."""
 
     @property
     def mean_pressure(self) -> float:
-        """Of the smooth contact [Pa]."""
+        """The load over the area of the smooth contact [Pa]."""
 
     @property
     def size_key(self) -> str:
-        """Of the size of the body in a scene file, as "wheel.radius"."""
+        """The key of a scene file that has the size of the body, as "wheel.radius"."""
 
     @property
     def roughness_key(self) -> str:
-        """Of the table of drawn roughness in a scene file; empty where there may be none."""
+        """The table of a scene file that has the generated roughness; empty where there may be none."""
 
     @property
     def roughness_levels(self) -> FloatArray:

@@ -38,7 +38,7 @@ class Wheel:
 
     @property
     def approach(self) -> float:
-        """d_N of Hertz [m]."""
+        """The approach d_N of Hertz under the load [m]."""
         return hertz_approach(radius=self.radius, modulus=self.modulus, force=self.load)
 
     @property
@@ -82,7 +82,7 @@ class OnHalfSpace:
 
     @property
     def contact_of_hertz(self) -> ContactEllipse:
-        """Of the smooth body."""
+        """Hertz's contact of the smooth body, a circle, under its load."""
         return ContactEllipse(self.contact_radius, self.contact_radius, self.approach, self.body.load)
 
     def diagnose_contact_radius(self, name: str = "wheel") -> Iterator[str]:
@@ -225,7 +225,7 @@ def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
 
 
 def _nodes(resonance: float, ground: RoughSurface, period: float, width: float) -> tuple[FloatArray, FloatArray]:
-    """Of a quadrature on panels that shrink towards the resonance and its width, none longer than a period of sin^2."""
+    """Wavenumbers and weights of a quadrature: panels shrink towards the resonance and are no longer than a period."""
     found = []
     for side in (-1, 1):
         low, high = (max(side * (q - resonance), 0.0) for q in (ground.q_min, ground.q_max)[::side])

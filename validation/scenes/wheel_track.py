@@ -87,7 +87,7 @@ class OnTrack(OnHalfSpace):
 
     @property
     def rolling_speed(self) -> float:
-        """v0 [m/s]."""
+        """The speed v0 of the wheel along the track [m/s]. Raises ValueError where the scene has none."""
         if self.speed is None:
             keys = "wheel.mass and wheel.speed"
             raise ValueError(f"scene {self.name!r} must have a motion for this, {keys}, got neither")

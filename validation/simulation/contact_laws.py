@@ -17,7 +17,7 @@ class ContactLaw(Protocol):
     """The contact of several wheels, each on a track of its own, all at the same place."""
 
     def force(self, place: int, approach: FloatArray) -> FloatArray:
-        """At approaches of any sign, shape (wheels,) [N]; not negative, but for a linear law; place: a cell."""
+        """The force on each wheel at approaches of any sign, (wheels,) [N]; a linear law alone pulls; place: a cell."""
 
     def at_rest(self, place: int) -> FloatArray:
         """The approach of each wheel at which it bears its load, shape (wheels,) [m]."""

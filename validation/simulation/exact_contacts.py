@@ -32,7 +32,7 @@ class SmoothSphere:
 
     @property
     def x(self) -> FloatArray:
-        """Centres of cells [m]."""
+        """The coordinates of the cell centres, (cells,), zero in the middle [m]."""
         return np.asarray((np.arange(self.cells) - (self.cells - 1) / 2) * self.spacing)
 
     @property
@@ -130,7 +130,7 @@ def press_wave(wave: CosineWave) -> Outcome:
 
 @dataclass(frozen=True, kw_only=True)
 class FlatPunches:
-    """Of side L or diameter L, E* = L = 1. cells: on a side; tolerance: of the linear solve."""
+    """Flat punches of side or diameter L, E* = L = 1. cells: on a side; tolerance: of the linear solve."""
 
     cells: int
     tolerance: float
@@ -173,7 +173,7 @@ class PublishedContact:
 
 
 def press_ellipse(problem: PublishedContact) -> Outcome:
-    """On a flat strip; an odd number of columns puts a cell under the deepest point. Approach [mm], pressure [MPa]."""
+    """Press an ellipsoid onto a flat strip, a cell under its deepest point. Approach [mm], highest pressure [MPa]."""
     smooth = problem.closed
     spacing = smooth.along / problem.cells
     shape = tuple(2 * round(STRIP / 2 * axis / spacing) + 1 for axis in (2 * smooth.along, 2 * smooth.across))

@@ -26,7 +26,7 @@ STEPS = 300
 
 
 class GapLaw:
-    """g(p) between mean pressures at which it is known, and as ln p below them; it never increases."""
+    """The mean gap g under a mean pressure p, interpolated in ln p; it is made to decrease, and extrapolated below."""
 
     def __init__(self, pressures: FloatArray, gaps: FloatArray) -> None:
         logs = np.log(pressures)
@@ -45,7 +45,7 @@ class GapLaw:
 
 @dataclass(frozen=True, eq=False)
 class MeanContact:
-    """Over `RADII`: pressure p, tangent P = dp/dd, and the displacement K P under it; force and stiffness."""
+    """Rings at `RADII` have pressure p, tangent P = dp/dd and displacement K P; their sums are force and stiffness."""
 
     pressure: FloatArray
     tangent: FloatArray

@@ -64,7 +64,7 @@ class Method(Protocol):
 
     @property
     def name(self) -> str:
-        """For tables and figures."""
+        """The label of the method in tables and figures."""
 
     def prepare(self, scene: Any, resolution: Resolution) -> Prepared:
         """Set-up, once for all realisations. Raises ValueError where the scene is out of range."""

@@ -127,7 +127,7 @@ class Model:
         return next((module, variable) for module, variable, candidate in _model_variables() if candidate is self)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """To another process goes its place: functions inside of functions do not."""
+        """Pickle the module and variable of the model, since nested functions cannot be pickled."""
         return resolve_name, (":".join(self.place),)
 
 

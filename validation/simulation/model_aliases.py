@@ -41,6 +41,6 @@ def label_of(printed: str) -> str:
 
 
 def note_of(printed: str) -> str:
-    """For whoever names a model, that it has two labels; empty where it has one."""
+    """A note that the model has two labels, for who names it by one; empty where it has one."""
     label = label_of(printed)
     return "" if label == printed else f'"{label}" and "{printed}" are labels of one model; results have the latter.'

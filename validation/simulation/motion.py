@@ -43,7 +43,7 @@ class Motion:
 
     @property
     def jump(self) -> FloatArray:
-        """Of the acceleration, from the record continued to its beginning: what leaks, of each wheel [m/s^2]."""
+        """The step of the acceleration from the end of the record to its beginning, which leaks, (wheels,) [m/s^2]."""
         return np.asarray(self.next_acceleration - self.acceleration[0])
 
 

@@ -31,7 +31,7 @@ class PressedScene(Protocol):
     def half_space(self, cells: int) -> bem3d.HalfSpace: ...
 
     def gap(self, cells: int, realisation: int) -> FloatArray:
-        """Undeformed separation."""
+        """The gap between the undeformed bodies at each cell of `half_space`."""
 
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
         """What is solved beside the contact, on the clock."""

@@ -22,8 +22,8 @@ REFUSALS = (ValueError, ArithmeticError, bem3d.ConvergenceError)
 def swept(
     values: ArrayLike, error: ArrayLike, messages: Sequence[str], *, measured: ArrayLike = 1.0, **also: ArrayLike
 ) -> Outcome:
-    """In ascending order of the values. error: of one limit, or a row for each of several; measured: what their
-    predicted thresholds take from the solve; also: other things along the values, or by themselves."""
+    """The outcome of a sweep through a limit, sorted by ascending values. error: of one limit, or a row for each of
+    several; measured: what predicted thresholds take from the solve; also: further columns, or numbers."""
     x = np.asarray(values, dtype=np.float64)
     order = np.argsort(x)
     return {

@@ -36,7 +36,7 @@ class SuperposedRidges:
         return np.asarray(2 * np.pi / self.length * np.arange(1, count + 1))
 
     def heights(self, points: int) -> FloatArray:
-        """At so many points of the track."""
+        """The heights of the ridges at so many equidistant points of the track, (points,)."""
         q = self.wavenumbers
         x = self.length / points * np.arange(points)
         phase = 2 * np.pi * random_generator(self.seed).random(q.size)
@@ -44,7 +44,7 @@ class SuperposedRidges:
         return np.asarray(self.height * unit / math.sqrt(np.sum(0.5 / q**2)))
 
     def response(self, up: FloatArray, down: FloatArray, height: FloatArray) -> NDArray[np.complex128]:
-        """From height to a force, wave by wave; what is even in the height drops out between up and down."""
+        """The transfer function from height to force, (waves,); (up - down) / 2 has no even orders of the height."""
         waves = slice(1, self.wavenumbers.size + 1)
         return np.asarray(np.fft.rfft((up - down) / 2)[waves] / np.fft.rfft(height)[waves])
 

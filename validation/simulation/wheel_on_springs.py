@@ -63,7 +63,7 @@ class WheelEnsemble:
 
     @property
     def places(self) -> int:
-        """Cells of the track."""
+        """The number of cells of the periodic track of each wheel."""
         if self.track == "open":
             longest = max((r.longest for r in (self.scene.rail, self.scene.wheel) if r), default=0.0)
             # longer than the record, since a generated track is periodic: its end would correlate with its beginning

@@ -179,30 +179,34 @@ def _weighted(result: AcrossResult, key: Key) -> Iterator[Series]:
 def _nearest(result: AcrossResult, key: Key) -> Iterator[Series]:
     """Which alpha of Remington and which factor of the bed stand for a ground, which alpha is alike; what is left."""
     scene, ground, contact = result.case.scene(key), GROUNDS[key[2]], result.case.scene(key).contact
-    keep = counted(linear_filter(scene, LINEAR, ground))
+    assessed = counted(linear_filter(scene, LINEAR, ground))
 
     def wider(factor: float) -> FloatArray:
         larger = replace(contact, along=factor * contact.along, across=factor * contact.across)
-        return in_counted(scene, BED, ground, keep, larger)
+        return a3_in_assessed_bands(scene, BED, ground, assessed, larger)
 
     def with_alpha(model: str) -> Callable[[float], FloatArray]:
-        return lambda alpha: in_counted(scene, model, alpha, keep)
+        return lambda alpha: a3_in_assessed_bands(scene, model, alpha, assessed)
 
     of = {FACTOR_OF: wider, ALPHA_OF: with_alpha(filters.REMINGTON_THERE)}
     if ground == "isotropic":
         of[ALIKE] = with_alpha(LINEAR)
     for name, filtered in of.items():
-        middle, *ends = (_least_off(filtered, result.a3(key, sign)[keep]) for sign in (0, 1, -1))
+        middle, *ends = (_least_off(filtered, result.a3(key, sign)[assessed]) for sign in (0, 1, -1))
         interval = Interval(middle[0], max(abs(end[0] - middle[0]) for end in ends))
         yield Series(NEAREST, name, (interval,), where=where_of(key))
         yield Series(LEFT, name, (middle[1],), where=where_of(key), unit="dB")
 
 
-def in_counted(
-    scene: RailScene, model: str, ground: StatedAcross, keep: NDArray[np.bool_], contact: EllipticContact | None = None
+def a3_in_assessed_bands(
+    scene: RailScene,
+    model: str,
+    ground: StatedAcross,
+    assessed: NDArray[np.bool_],
+    contact: EllipticContact | None = None,
 ) -> FloatArray:
-    """A3 of a linear model in the first bands alone [dB]."""
-    line, edges = line_of(scene), scene.levels.bands.edges[: np.count_nonzero(keep) + 1]
+    """A3 of a linear model in the assessed bands alone [dB]; assessed: a mask of the bands, true for the first ones."""
+    line, edges = line_of(scene), scene.levels.bands.edges[: np.count_nonzero(assessed) + 1]
     transfer, axes = filters.filter_of(model, contact or scene.contact)
     return decibel(structure_of(ground, line).band_power(line, transfer, edges=edges, semi_axes=axes))
 

@@ -207,7 +207,7 @@ class WaveBand(TransverseStructure):
         return int(self._slopes(np.asarray(q, dtype=np.float64)[..., np.newaxis], semi_axis)[1].size)
 
     def _slopes(self, wave: FloatArray, semi_axis: float) -> tuple[FloatArray, FloatArray]:
-        """k_y / k_x and its weights; a period of the filter is another for each wave."""
+        """Nodes k_y / k_x and weights over half of the band: the same for all waves, or of short ones a row a wave."""
         # power and filter are even in t = k_y / k_x: half of the range is enough
         longest = float(wave.max(initial=0.0)) * self.alpha * semi_axis
         if min(self.alpha, 1.0) * float(wave.min(initial=np.inf)) * semi_axis > FAR:
