@@ -46,11 +46,9 @@ def indent(
     approaches, forces : sequence of float, optional
         Either approaches [m] or forces [N], in the order of the path.
     stiffness : bool, optional
-        Whether each contact stores its ``frozen`` contact area. It costs about half as many operator applications as
-        the contact itself, and saves a few of the next one's.
+        Whether each contact stores its ``frozen`` contact area, for half as many applications as the contact takes.
     stiffness_tolerance : float, optional
-        Relative residual of the frozen contact areas, in (0, 1). The relative error of a stiffness is some tens of
-        times its square: about 1e-7 by default.
+        Residual of the frozen contact areas, in (0, 1). A stiffness is off by some tens of times its square.
     indenter_ends_at_edge, tolerance, max_iterations, raise_on_failure
         As in `solve`.
     progress : bool or callable, optional
@@ -84,8 +82,8 @@ def indent(
     """
     problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
-    of_stiffness = fraction("stiffness_tolerance", stiffness_tolerance) if stiffness else None
-    return _path(problems, of_stiffness, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
+    frozen = fraction("stiffness_tolerance", stiffness_tolerance) if stiffness else None
+    return _path(problems, frozen, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
 
 
 def _problems(
