@@ -57,8 +57,7 @@ def indent(
     Yields
     ------
     Contact
-        The contact at each load. It starts from the last along the tangent p + f dd where the stiffness is known, or
-        else along the secant through the last two.
+        At each load; begun from the last along the tangent p + f dd, or else along the secant through the last two.
 
     Raises
     ------
