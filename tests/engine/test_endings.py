@@ -170,7 +170,7 @@ def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path
         ("compare sphere", "advice.commands.compare.findings", False),
         ("compare sphere rough_punch", "advice.commands.compare.compare_scenes", True),
         ("calibrate --show", "advice.commands.calibrate.calibration_lines", False),
-        ("calibrate --references made", "judging.calibrations.references_of", True),
+        ("calibrate --references made", "judging.kinds.from_report.references_of", True),
         ("benchmark --out out", "report.commands.run_cases.build", True),
     ],
 )

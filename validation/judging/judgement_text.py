@@ -5,6 +5,7 @@ import textwrap
 from collections.abc import Iterator, Sequence
 from enum import StrEnum
 from importlib import metadata
+from itertools import starmap
 from typing import TYPE_CHECKING
 
 from validation.advice.tolerance import Tolerance
@@ -91,7 +92,7 @@ class SolverPattern(StrEnum):
     OTHER = "  {place}: {reason}"
     TIME = "  {0.cells:.0f}²{0.seconds:12.3g} s{ratio:9.2g} times"
     GROWTH = "  its time grows as the number of cells to the power {power:.2g}, that of bem3d {of_bem3d:.2g}"
-    PAPER = "  {model!r} {verb} discrete problems{half_spaces} of mdr-validation {version}{accuracy}{limits}."
+    PAPER = "  {model!r} {verb}{count} discrete problems{half_spaces} of mdr-validation {version}{accuracy}{limits}."
 
 
 def summary_lines(judgement: "Judgement") -> Iterator[str]:
@@ -158,20 +159,17 @@ def closed_form_lines(closed_forms: Sequence[JudgedSeries]) -> Iterator[str]:
 
     Where it follows all, the limits beyond the scenes of its judge.
     """
-    broken = [(series, part) for series in closed_forms for part in series.verdict_ranges if _is_broken(part)]
+    ranges = [(series, part) for series in closed_forms for part in series.verdict_ranges]
+    broken = [pair for pair in ranges if pair[1].verdict not in (Verdict.WITHIN, Verdict.INCONCLUSIVE)]
     limits = [series for series in closed_forms if series.quantity in SWEPT]
     if broken:
         yield "\nWhere it breaks:"
-        yield from (_broken_line(series, part) for series, part in broken)
+        yield from starmap(_broken_line, broken)
     elif limits:
         yield "\nBeyond these scenes:"
         for series in limits:
             is_within = all(number.verdict is Verdict.WITHIN for number in series.numbers)
             yield f"  {series.quantity}: {Verdict.WITHIN if is_within else Verdict.INCONCLUSIVE}"
-
-
-def _is_broken(part: VerdictRange) -> bool:
-    return part.verdict not in (Verdict.WITHIN, Verdict.INCONCLUSIVE)
 
 
 def _broken_line(series: JudgedSeries, part: VerdictRange) -> str:
@@ -246,13 +244,10 @@ def quantity_sentence(tolerance: Tolerance, series: Sequence[JudgedSeries]) -> s
         return Sentence.NEVER_WITHIN.format(**fields)
     places = []
     for ranges, values in found.values.items():
-        at = f" at {found.by} = {', '.join(map(_value_text, values))}" if found.by else ""
+        texts = [place_value(value) if isinstance(value, float) else value for value in values]
+        at = f" at {found.by} = {', '.join(texts)}" if found.by else ""
         places.append(" and ".join(interval_text(*ends) for ends in ranges) + at)
     return Sentence.RANGES_WITHIN.format(ranges="; ".join(places), **fields)
-
-
-def _value_text(value: float | str) -> str:
-    return value if isinstance(value, str) else place_value(value)
 
 
 def _setting(name: str, numbers: Sequence[JudgedNumber]) -> str:
@@ -306,18 +301,17 @@ def solver_sentence(
     model: str, wrong: Sequence[JudgedNumber], checks: Sequence[JudgedNumber], unserved: Sequence[JudgedNumber]
 ) -> str:
     """For a paper: a result that goes no further than the problems that were solved."""
-    solved = _problems(checks)
-    failed, count = len(_problems(wrong)), len(solved)
+    solved, failed = set(map(_problem, checks)), set(map(_problem, wrong))
+    count, others = len(solved), set(map(_problem, unserved)) - solved
     periodic = {"periodic" in name for name in solved}
     return SolverPattern.PAPER.format(
         model=model,
-        verb=f"is wrong on {failed} of the {count}"
-        if wrong
-        else f"solves {f'the {count}' if count else 'none of the'}",
+        verb=f"is wrong on {len(failed)} of the" if wrong else "solves the" if count else "solves none of the",
+        count=f" {count}" if count else "",
         half_spaces=f" of {'periodic' if True in periodic else 'free'} half-spaces" if len(periodic) == 1 else "",
         version=metadata.version("mdr-validation"),
         accuracy="" if wrong or not count else " to its residual, by an operator that is not its own",
-        limits=f"; {len(_problems(unserved) - solved)} others it does not serve" if unserved else "",
+        limits=f"; {len(others)} others it does not serve" if unserved else "",
     )
 
 
@@ -325,7 +319,7 @@ def unserved_lines(unserved: Sequence[JudgedNumber], checks: Sequence[JudgedNumb
     """The problems that a solver declares not to serve, and those that the verdict covers then."""
     if not unserved:
         return
-    lost, solved = _problems(unserved), _problems(checks)
+    lost, solved = set(map(_problem, unserved)), set(map(_problem, checks))
     counts = {"of {} others": len(lost - solved), "of {} in part": len(lost & solved)}
     rest = ", and ".join(words.format(count) for words, count in counts.items() if count)
     yield SolverPattern.COVERED.format(count=len(solved), rest=rest)
@@ -333,18 +327,14 @@ def unserved_lines(unserved: Sequence[JudgedNumber], checks: Sequence[JudgedNumb
 
 
 def _problem(number: JudgedNumber) -> str:
+    """Its name."""
     return str(number.where["problem"])
-
-
-def _problems(numbers: Sequence[JudgedNumber]) -> set[str]:
-    """Names of the problems of these numbers."""
-    return set(map(_problem, numbers))
 
 
 def reason_lines(numbers: Sequence[JudgedNumber]) -> Iterator[str]:
     """Causes before symptoms, that of most problems first, each with its quantities and problems."""
     groups = groups_of(numbers, lambda number: number.reason)
-    order = sorted(groups, key=lambda reason: (reason in {*Symptom}, -len(_problems(groups[reason]))))
+    order = sorted(groups, key=lambda reason: (reason in {*Symptom}, -len(set(map(_problem, groups[reason])))))
     for reason in order[:SHOWN]:
         names = list(dict.fromkeys(map(_problem, groups[reason])))
         yield SolverPattern.REASON.format(
