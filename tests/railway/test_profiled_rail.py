@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.railway.test_rail_files import written
-from tests.seeded import Times, catches
+from tests.seeded import Times, catches, module_with
 from validation.railway.scenes import transverse_profile
 from validation.railway.scenes.rail import ProfiledRail
 from validation.railway.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
@@ -289,12 +289,28 @@ def test_two_bodies_touch_where_both_together_are_highest():
         assert both_together([rail, cone.moved(offset)], 0.0).at == pytest.approx(-3e-3, abs=3e-6)
 
 
-def test_a_contact_on_a_flank_is_refused():
-    """sin(20 degrees) of a radius of 100 mm beside the top of a cone of tan(20 degrees)."""
-    ball, cone = profile_of(parabola(100.0) + 0.36 * Y), profile_of(-0.2 * Y)
-    assert both_together([ball, cone], 0.0).inclination == pytest.approx(math.atan(0.2), 0.01)
-    with pytest.raises(ValueError, match=r"must touch where both are level, .* on a flank of 21\.\d degrees"):
-        both_together([ball, profile_of(-0.4 * Y)], 0.0)
+@pytest.mark.parametrize(("shift", "count"), [(3e-4, 101), (5e-2, 200)])
+def test_both_together_reach_as_far_as_both_do_and_have_their_places_once(shift, count):
+    """From -20 mm on the wheel to 30 mm on the rail. Places that differ by rounding are one, others are two [mm]."""
+    y = np.arange(-20, 40.25, 0.5) + shift
+    together = both_together([profile_of(parabola(300.0)), profile_of(-(y**2) / 1200, y)], 0.0)
+    places = 1e3 * (np.array(together.y) + together.at)
+    assert (places[0], places[-1]) == pytest.approx((-20 + shift, 30), abs=1e-9)
+    assert places.size == count
+    assert np.array(together.height) == pytest.approx(-(places**2) / 400 / 1e3, abs=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [14.9, -14.9, 15.1, -15.1])
+@catches("the tangent of an inclination for the angle", degrees=14.9).at(
+    "validation.railway.scenes.transverse_profile.math", module_with(math, atan=abs)
+)
+def test_a_contact_on_a_flank_is_refused(degrees):
+    """A ball touches a plane at its top, from where both are inclined by so much, to either side."""
+    slope = math.tan(math.radians(degrees))
+    bodies = profile_of(parabola(100.0) + slope * Y), profile_of(-slope * Y)
+    said = r"must touch where both are level, to 15 degrees, .* on a flank of 15\.1 degrees"
+    with pytest.raises(ValueError, match=said) if abs(degrees) > 15 else nullcontext():
+        assert both_together(bodies, 0.0).inclination == pytest.approx(math.radians(14.9), abs=1e-4)
 
 
 def test_flanks_that_turn_back_are_left_out_and_told(tmp_path):
