@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, grouped
+from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict, grouped
 from validation.analysis.statistics import Estimate
 
 reals = st.floats(-1e3, 1e3)
@@ -79,8 +79,8 @@ def test_rows_are_grouped_by_the_values_of_columns_in_their_order():
     assert (found.name, found.columns) == ("g", {"kind": ["b", "a"], "sum": [5.0, 2.0], "rows": [2, 1]})
 
 
-def evidence(numbers, **parts):
-    return Evidence(title="t", method="", numbers=numbers, tables=(), conclusions=(), **{"captions": {}, **parts})
+def evidence(numbers):
+    return Evidence(title="t", method="", numbers=numbers, tables=(), conclusions=(), captions={})
 
 
 @pytest.mark.parametrize("models", ["aab", "abb", "aba"])
@@ -92,13 +92,3 @@ def test_two_numbers_of_one_label_are_refused(models):
 def test_numbers_that_differ_in_a_part_of_their_key_have_labels_of_their_own():
     keys = {"quantity": "y"}, {"model": "m"}, {"where": {"H": 0.7}}, {"where": {"H": 0.8}}, {"where": {"band": "low"}}
     assert len(evidence([number(), *(number(**key) for key in keys)]).numbers) == 1 + len(keys)
-
-
-@pytest.mark.parametrize(
-    ("limits", "inside"), [("up to 1", ()), ("", ("a",)), ("up to 1", ("c",)), ("up to 1", ("a", "c"))]
-)
-def test_limits_of_a_claim_are_refused_without_numbers_of_its_own_inside(limits, inside):
-    numbers, within = (tuple(number(model=model) for model in models) for models in ("ab", inside))
-    with pytest.raises(ValueError, match="must come with numbers of its own inside them"):
-        JudgedClaim(claim="It is so.", answer="", numbers=numbers, limits=limits, inside=within)
-    assert JudgedClaim(claim="It is so.", answer="", numbers=numbers, limits="up to 1", inside=numbers[:1]).limits
