@@ -382,3 +382,12 @@ def test_a_matrix_of_models_has_no_column_of_a_quantity_and_a_study_prints_what_
     one, other = (Series(name, "m", (2.0,)) for name in ("level", "slope"))
     study = Study(title="t", method="m", series=lambda _: [one, other], claims=(), printed=("slope",))
     assert [table.name for table in study.evidence(Outcomes(None, {})).page_tables] == ["slope"]
+
+
+@pytest.mark.parametrize("keys", ["aab", "abb", "aba"])
+def test_two_claims_of_one_key_are_refused(keys):
+    """Others find a claim by its key; claims that nobody looks for have none, and their words may be the same."""
+    with pytest.raises(ValueError, match=f"got twice: {max(keys, key=keys.count)}$"):
+        Study(title="t", method="", series=lambda _: [], claims=[Claim(says=str(i), key=k) for i, k in enumerate(keys)])
+    claims = Claim(says="It is so."), Claim(says="It is so."), Claim(key="a"), Claim(key="b")
+    assert Study(title="t", method="", series=lambda _: [], claims=claims).claims == claims

@@ -5,10 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.analysis.evidence import Number, Role, Table, Verdict, grouped
-from validation.analysis.statistics import (
-    Estimate,
-)
+from validation.analysis.evidence import Evidence, Number, Role, Table, Verdict, grouped
+from validation.analysis.statistics import Estimate
 
 reals = st.floats(-1e3, 1e3)
 sizes = st.floats(0, 1e3)
@@ -79,3 +77,18 @@ def test_rows_are_grouped_by_the_values_of_columns_in_their_order():
     table = Table("t", {"kind": ["b", "a", "b"], "x": [1.0, 2.0, 4.0]})
     found = grouped("g", table, ("kind",), {"sum": lambda t: float(t["x"].sum()), "rows": lambda t: len(t["x"])})
     assert (found.name, found.columns) == ("g", {"kind": ["b", "a"], "sum": [5.0, 2.0], "rows": [2, 1]})
+
+
+def evidence(numbers):
+    return Evidence(title="t", method="", numbers=numbers, tables=(), conclusions=(), captions={})
+
+
+@pytest.mark.parametrize("models", ["aab", "abb", "aba"])
+def test_two_numbers_of_one_label_are_refused(models):
+    with pytest.raises(ValueError, match=rf"twice: \['{max(models, key=models.count)}: x'\]$"):
+        evidence([number(model=model) for model in models])
+
+
+def test_numbers_that_differ_in_a_part_of_their_key_have_labels_of_their_own():
+    keys = {"quantity": "y"}, {"model": "m"}, {"where": {"H": 0.7}}, {"where": {"H": 0.8}}, {"where": {"band": "low"}}
+    assert len(evidence([number(), *(number(**key) for key in keys)]).numbers) == 1 + len(keys)

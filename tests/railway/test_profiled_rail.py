@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.railway.test_rail_files import written
-from tests.seeded import Times, catches
+from tests.seeded import Times, catches, module_with
 from validation.railway.scenes import transverse_profile
 from validation.railway.scenes.rail import ProfiledRail
 from validation.railway.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
@@ -240,16 +240,17 @@ def test_a_wheel_upside_down_is_told_where_its_places_count_from_the_middle_of_t
         assert rolling(tmp_path, offset, flip=flip, shift=750).profile.at < 0
 
 
-def two_tops(gap):
-    """Two crowns of 300 mm side by side, 30 mm apart, the second lower by a gap [mm]."""
-    y = np.arange(-25, 55.1, 0.5)
-    return profile_of(np.maximum(-(y**2) / 600, -((y - 30) ** 2) / 600 - gap), y)
+def two_tops(gap, side=1):
+    """Two crowns of 300 mm side by side, 30 mm apart, the second to a side and lower by a gap [mm]."""
+    y = np.arange(-55, 55.1, 0.5)
+    y = y[side * y > -25.1]
+    return profile_of(np.maximum(-(y**2) / 600, -((y - side * 30) ** 2) / 600 - gap), y)
 
 
-def second_contact(gap, load):
+def second_contact(gap, load, side=1):
     """What is said of two crowns under a load; nothing where only one touches."""
     try:
-        assert radius_of(two_tops(gap), load) == pytest.approx(0.3, rel=1e-3)
+        assert radius_of(two_tops(gap, side), load) == pytest.approx(0.3, rel=1e-3)
     except ValueError as problem:
         return str(problem)
     return ""
@@ -258,16 +259,18 @@ def second_contact(gap, load):
 check_alone = transverse_profile._check_alone
 
 
-@catches("a second contact that is not seen").at(
+@catches("a second contact that is not seen", side=1).at(
     "validation.railway.scenes.transverse_profile._check_alone", lambda *arguments: None
 )
-@catches("surfaces that do not give way beside the contact").at(
+@catches("surfaces that do not give way beside the contact", side=1).at(
     "validation.railway.scenes.transverse_profile._check_alone", lambda *of: check_alone(*of[:3], 0.0)
 )
-def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none():
-    """The approach is 66 um; 30 mm beside the contact the surfaces give way by F / (pi E* r) = 4.6 um."""
-    assert second_contact(0.064, 5e4) == second_contact(0.058, 3e4) == ""
-    assert re.search(r"one contact under the load, got a second one \+(29|30)\S* mm beside", second_contact(0.058, 5e4))
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none(side):
+    """The approach is 65.6 um; 30 mm beside the contact the surfaces give way by F / (pi E* r) = 4.6 um."""
+    assert second_contact(0.0614, 5e4, side) == second_contact(0.058, 3e4, side) == ""
+    said = rf"one contact under the load, got a second one {re.escape(f'{30 * side:+}')} mm beside .* overlap by 0\.39"
+    assert re.search(said, second_contact(0.0606, 5e4, side))
 
 
 moved = TransverseProfile.moved
@@ -289,12 +292,28 @@ def test_two_bodies_touch_where_both_together_are_highest():
         assert both_together([rail, cone.moved(offset)], 0.0).at == pytest.approx(-3e-3, abs=3e-6)
 
 
-def test_a_contact_on_a_flank_is_refused():
-    """sin(20 degrees) of a radius of 100 mm beside the top of a cone of tan(20 degrees)."""
-    ball, cone = profile_of(parabola(100.0) + 0.36 * Y), profile_of(-0.2 * Y)
-    assert both_together([ball, cone], 0.0).inclination == pytest.approx(math.atan(0.2), 0.01)
-    with pytest.raises(ValueError, match=r"must touch where both are level, .* on a flank of 21\.\d degrees"):
-        both_together([ball, profile_of(-0.4 * Y)], 0.0)
+@pytest.mark.parametrize(("shift", "count"), [(3e-4, 101), (5e-2, 200)])
+def test_both_together_reach_as_far_as_both_do_and_have_their_places_once(shift, count):
+    """From -20 mm on the wheel to 30 mm on the rail. Places that differ by rounding are one, others are two [mm]."""
+    y = np.arange(-20, 40.25, 0.5) + shift
+    together = both_together([profile_of(parabola(300.0)), profile_of(-(y**2) / 1200, y)], 0.0)
+    places = 1e3 * (np.array(together.y) + together.at)
+    assert (places[0], places[-1]) == pytest.approx((-20 + shift, 30), abs=1e-9)
+    assert places.size == count
+    assert np.array(together.height) == pytest.approx(-(places**2) / 400 / 1e3, abs=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [14.9, -14.9, 15.1, -15.1])
+@catches("the tangent of an inclination for the angle", degrees=14.9).at(
+    "validation.railway.scenes.transverse_profile.math", module_with(math, atan=abs)
+)
+def test_a_contact_on_a_flank_is_refused(degrees):
+    """A ball touches a plane at its top, from where both are inclined by so much, to either side."""
+    slope = math.tan(math.radians(degrees))
+    bodies = profile_of(parabola(100.0) + slope * Y), profile_of(-slope * Y)
+    said = r"must touch where both are level, to 15 degrees, .* on a flank of 15\.1 degrees"
+    with pytest.raises(ValueError, match=said) if abs(degrees) > 15 else nullcontext():
+        assert both_together(bodies, 0.0).inclination == pytest.approx(math.radians(14.9), abs=1e-4)
 
 
 def test_flanks_that_turn_back_are_left_out_and_told(tmp_path):
