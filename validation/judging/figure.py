@@ -2,19 +2,18 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-import matplotlib
-
 from validation.advice.tolerance import decibels
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.evidence import Evidence, Table, table_of
+from validation.analysis.evidence import Table, table_of
 from validation.analysis.series import ENDS
 from validation.judging.judgement import LEVEL, Conditions, JudgedSeries, conditions_text, series_of
 from validation.judging.kinds.own import MAIN
-from validation.report.drawing import draw
-from validation.report.style import FORMATS, SETTINGS, in_two_lines, picture, plain_figure
+from validation.report.drawing import DrawnPanel, picture_of
+from validation.report.style import FORMATS, in_two_lines
 
 if TYPE_CHECKING:
     from validation.judging.judge import Judgement
@@ -25,8 +24,6 @@ MARGIN, LARGEST = 0.05, 1e100
 """Of a scale beyond its points; of a number that an axis has room for."""
 YOURS = " (this model)"
 """After a name that a model of the package has as well."""
-DrawnPanel = tuple[Panel, Table]
-"""A panel, and the table that it draws."""
 
 
 def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
@@ -40,13 +37,9 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
     drawn = [panel for judgement in shown for panel in _deviation_panels(judgement)]
     drawn += [panel for judgement in shown for panel in _cost_panels(judgement)]
     chart, tables = chart_of(drawn)
-    evidence = Evidence(title="", method="", numbers=(), tables=tables, conclusions=(), captions={})
-    with matplotlib.rc_context(SETTINGS):
-        figure = draw(chart, evidence, users=_names_of_users(judgements, tables))
-    if names := left_out(judgements):
-        figure.suptitle(in_two_lines(f"not shown: {', '.join(names)}"), fontsize=8)
-    plain_figure(figure)
-    return picture(figure, form)
+    names = left_out(judgements)
+    title = in_two_lines(f"not shown: {', '.join(names)}") if names else ""
+    return picture_of(replace(chart, title=title), tables, form, users=_names_of_users(judgements, tables))
 
 
 def chart_of(drawn: Sequence[DrawnPanel]) -> tuple[Chart, tuple[Table, ...]]:
