@@ -51,6 +51,17 @@ def test_both_quantities_of_a_rail_are_solved_once():
     assert all(f"\n{quantity} by linear, ellipse" in text for quantity in both)
 
 
+@catches("solves of one quantity taken for those of another").at(
+    "validation.scenes.rolling.RollingScene.shares_solves", True
+)
+def test_quantities_of_a_wheel_have_solves_of_their_own():
+    keys, settings = ("force-spectrum", "force-rms"), {"models": ["linear filter, 1D"]}
+    both = SceneProblem(validation.load_scene("rolling_wheel"), keys, 0.5, **settings).compared()
+    for key in keys:
+        alone = validation.compare(validation.load_scene("rolling_wheel"), key, 0.5, **settings)
+        assert both[key].model and validation.to_json(both[key]) == validation.to_json(alone)
+
+
 @catches("a sweep with values in units of their own").at(
     "validation.advice.compare.quantity", lambda name, text, dimension: float(compare.NUMBER.fullmatch(text)[1])
 )

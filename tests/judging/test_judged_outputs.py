@@ -205,7 +205,7 @@ def test_a_model_of_a_user_has_a_marker_of_its_own_and_a_name_in_the_legend(name
     costs = tuple(ErrorOfCall(other, 0.1, "-", 1e-5 * i) for i, other in enumerate((name, "springs"), 1))
     found = judged.Judgement(name, "stiffness_model", judged.tolerance_of(0.1), (), 1.0, costs=costs)
     figures = []
-    monkeypatch.setattr("validation.judging.figure.picture", lambda figure, form: figures.append(figure))
+    monkeypatch.setattr("validation.report.drawing.picture", lambda figure, form: figures.append(figure))
     figure_of([found], "svg")
     axes = figures[0].axes[0]
     own, springs = [line for line in axes.lines if len(line.get_xdata())]
@@ -218,7 +218,7 @@ def test_a_model_of_a_user_has_a_marker_of_its_own_and_a_name_in_the_legend(name
 
 def axes_of(found, monkeypatch):
     figures = []
-    monkeypatch.setattr("validation.judging.figure.picture", lambda figure, form: figures.append(figure))
+    monkeypatch.setattr("validation.report.drawing.picture", lambda figure, form: figures.append(figure))
     figure_of([found], "svg")
     return [axis for axis in figures[0].axes if axis.lines or axis.patches]
 
@@ -234,7 +234,7 @@ def judgement_of(name, values):
 
 def test_a_model_that_is_far_off_leaves_the_scale_of_another_one(monkeypatch):
     figures = []
-    monkeypatch.setattr("validation.judging.figure.picture", lambda figure, form: figures.append(figure))
+    monkeypatch.setattr("validation.report.drawing.picture", lambda figure, form: figures.append(figure))
     figure_of([judgement_of("good", [2.0, 2.2, 1.9]), judgement_of("bad", [2e3, 4e3, 2.0])], "svg")
     good, bad = [
         axis.get_ylim() for axis in figures[0].axes if axis.get_ylabel().startswith("relative") or axis.patches

@@ -391,10 +391,10 @@ class SceneProblem:
         return [model for model in models if model.kind not in BY_NAME or any(model is named for named in only)], only
 
     def compared(self, callback: Callable[[SceneModel], None] = lambda _: None) -> dict[str, Comparison]:
-        """Each quantity by its name; a filter and what it leaves share their solves."""
+        """Each quantity by its name; those of a scene whose results have all of them share their solves."""
         comparisons, shared, tolerance = dict[str, Comparison](), Shared(), self.parsed_tolerance.relative
         for key in self.quantities:
-            models, only = self.listed_and_solvable(key, shared)
+            models, only = self.listed_and_solvable(key, shared if self.scene.shares_solves else None)
             announced = comparisons and self.scene.shares_solves
             selection = select_model(
                 models,

@@ -5,26 +5,25 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-import matplotlib
 import numpy as np
 
 from validation.advice.compare import Comparison, OneOrSeveral, listed
 from validation.advice.exported import csv_table
 from validation.advice.table import by_quantity, counted_bands, reference_of, shown_models, speed_and_accuracy
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.evidence import Evidence, Table, table_of
+from validation.analysis.evidence import Table, table_of
 from validation.analysis.series import ENDS
-from validation.report.drawing import draw
-from validation.report.style import FORMATS, SETTINGS, in_two_lines, legend_name, picture, plain_figure
+from validation.report.drawing import DrawnPanel, picture_of
+from validation.report.style import FORMATS, in_two_lines, legend_name
 
 MOST = 5
 """Curves in one panel: of more, none is told from the others."""
-NAME, TITLE = 48, 90
-"""Characters of a line of a name, and of a title."""
+NAME = 48
+"""Characters of a line of a name."""
+ALONE = 3.6
+"""Height of a panel of a sweep by itself [inch]."""
 WAVELENGTH, FREQUENCY, SECONDS = "wavelength [mm]", "frequency [Hz]", "time of the solves [s]"
 """Names of axes."""
-DrawnPanel = tuple[Panel, Table]
-"""A panel, and the table that it draws."""
 
 
 def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
@@ -74,15 +73,13 @@ def panels_of(comparisons: Sequence[Comparison]) -> tuple[str, list[DrawnPanel]]
 
 def _picture(title: str, drawn: Sequence[DrawnPanel], form: str, users: Callable[[list[str]], Iterable[str]]) -> bytes:
     """A picture of panels. users: which of the names in it are not the package's own."""
-    columns = 1 if any(panel.height for panel, _ in drawn) else 0
-    chart = Chart("compare", panels=tuple(panel for panel, _ in drawn), title=in_two_lines(title), columns=columns)
-    tables = tuple(table for _, table in drawn)
-    evidence = Evidence(title="", method="", numbers=(), tables=tables, conclusions=(), captions={})
+    alone = ALONE * (len(drawn) == 1 and not drawn[0][0].facet)
+    panels = tuple(replace(panel, height=panel.height or alone) for panel, _ in drawn)
+    columns = 1 if all(panel.height for panel in panels) else 0
+    tables = [table for _, table in drawn]
     names = [str(name) for table in tables for name in table.columns.get("model", ())]
-    with matplotlib.rc_context(SETTINGS):
-        figure = draw(chart, evidence, users=set(users(names)))
-    plain_figure(figure)
-    return picture(figure, form)
+    chart = Chart("compare", panels=panels, title=in_two_lines(title), columns=columns)
+    return picture_of(chart, tables, form, users=set(users(names)))
 
 
 def names_of_users(comparisons: Sequence[Comparison], shown: Sequence[str]) -> set[str]:
@@ -188,14 +185,7 @@ def _panels_of_sweep(comparisons: Sequence[Comparison]) -> Iterator[DrawnPanel]:
     values = [comparison.swept.value for comparison in comparisons if comparison.swept]
     numbers = [value for value in values if isinstance(value, float)]
     is_log = len(numbers) == len(values) and min(numbers) > 0 and max(numbers) >= DECADE * min(numbers)
-    panel = Panel(
-        first.swept.label,
-        _label(first),
-        log="x" if is_log else "",
-        ticked=is_log,
-        own_y=True,
-        height=0.0 if first.is_level else 3.6,
-    )
+    panel = Panel(first.swept.label, _label(first), log="x" if is_log else "", ticked=is_log, own_y=True)
     force = first.is_level and all(comparison.force for comparison in comparisons)
     if force:
         table = _table_of_sweep(f"force of {first.quantity}", lines, {math.nan: _interval_of_force})
@@ -212,7 +202,12 @@ def _table_of_sweep(
 ) -> Table:
     """A row a wavelength, line and swept value, in the order of the values. intervals: by wavelength [mm]."""
     rows = [
-        {"model": line, WAVELENGTH: wave, swept.label: swept.value, **dict(zip(ENDS, interval(*point), strict=True))}
+        {
+            "model": line,
+            WAVELENGTH: float(f"{wave:.4g}"),
+            swept.label: swept.value,
+            **dict(zip(ENDS, interval(*point), strict=True)),
+        }
         for wave, interval in intervals.items()
         for line, points in lines.items()
         for point in _in_order(points)

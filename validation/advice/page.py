@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from validation.advice import advice, summary
-from validation.advice import advice as on_mdr
 from validation.advice.compare import Comparison
 from validation.advice.contact_force import LEVELS
 from validation.advice.exported import SCHEMA_OF_JSON, csv_table, to_json_of
@@ -68,7 +67,7 @@ def _entries_of_scene(name: str, comparison: Comparison) -> dict[str, object]:
         "comparison": comparison,
         "answer": summary.result_of(comparison, answer) if answer else "No model has a result with a known error",
         "counted": answer.counted if answer else "",
-        "on_mdr": on_mdr.in_full(comparison),
+        "on_mdr": advice.in_full(comparison),
         "help": advice.what_would_help(comparison),
         "notes": _notes(comparison),
         "understood": (*describe(comparison.scene), ("assumed", summary.ASSUMED)),

@@ -6,16 +6,14 @@ from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-import matplotlib
-
 from validation.advice.tolerance import decibels
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.evidence import Evidence, Table, table_of, where_text
+from validation.analysis.evidence import Table, table_of, where_text
 from validation.analysis.series import ENDS
 from validation.judging.judgement import LEVEL, Conditions, JudgedSeries, series_of
 from validation.judging.kinds.own import MAIN
-from validation.report.drawing import draw
-from validation.report.style import FORMATS, SETTINGS, in_two_lines, picture, plain_figure
+from validation.report.drawing import picture_of
+from validation.report.style import FORMATS, in_two_lines
 
 if TYPE_CHECKING:
     from validation.judging.judge import Judgement
@@ -42,14 +40,10 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
         raise ValueError(f"a figure must be one of {', '.join(FORMATS)}, got {form!r}")
     missing = left_out(judgements)
     chart, table = chart_of(judgements[: len(judgements) - len(missing)])
-    evidence = Evidence(title="", method="", numbers=(), tables=(table,), conclusions=(), captions={})
+    title = in_two_lines(f"not shown: {', '.join(missing)}") if missing else ""
     of_package = {cost.model for judgement in judgements for cost in judgement.costs[1:]}
-    with matplotlib.rc_context(SETTINGS):
-        figure = draw(chart, evidence, users={*map(str, table.columns["model"])} - of_package)
-    if missing:
-        figure.suptitle(in_two_lines(f"not shown: {', '.join(missing)}"), fontsize=8)
-    plain_figure(figure)
-    return picture(figure, form)
+    users = {*map(str, table.columns["model"])} - of_package
+    return picture_of(replace(chart, title=title), (table,), form, users=users)
 
 
 def chart_of(judgements: Sequence["Judgement"]) -> tuple[Chart, Table]:

@@ -2,10 +2,11 @@
 
 import math
 import textwrap
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Literal
 
+import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
@@ -22,6 +23,7 @@ from validation.report.style import (
     BARS,
     GUIDE,
     INK,
+    SETTINGS,
     SOFT,
     WIDTH,
     EachNumber,
@@ -29,6 +31,8 @@ from validation.report.style import (
     graded,
     legend_name,
     panels,
+    picture,
+    plain_figure,
     styles_of,
     tick,
     visible,
@@ -159,6 +163,19 @@ def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figur
     for axis, (panel, facet) in zip(axes, facets, strict=True):
         _name_points(axis, panel, facet, evidence)
     return figure
+
+
+DrawnPanel = tuple[Panel, Table]
+"""A panel, and the table that it draws."""
+
+
+def picture_of(chart: Chart, tables: Iterable[Table], form: str, users: Collection[str] = ()) -> bytes:
+    """A chart that is of no case, in one of the `FORMATS`; the texts of its tables are no markup."""
+    evidence = Evidence(title="", method="", numbers=(), tables=tuple(tables), conclusions=(), captions={})
+    with matplotlib.rc_context(SETTINGS):
+        figure = draw(chart, evidence, users)
+    plain_figure(figure)
+    return picture(figure, form)
 
 
 def _share(axes: Sequence[Axes], drawn: Sequence[Panel]) -> None:
