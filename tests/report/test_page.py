@@ -146,7 +146,7 @@ def test_the_line_beside_a_figure_draws_it_again(tmp_path, monkeypatch):
     assert command.main(["report", "--only", "geike", "--out", str(tmp_path), "--workers", "1"]) == 0
     text = (tmp_path / "exact.html").read_text(encoding="utf-8")
     linked = set(re.findall(r'href="(data/[^"]*\.csv)"', text))
-    tables = ("C_1D_m³", "moment_over_that_of_the_surface", "numbers")
+    tables = ("C_1D_m3", "moment_over_that_of_the_surface", "numbers")
     assert linked == {f"data/geike-{table}.csv" for table in tables}
     assert all((tmp_path / path).exists() for path in (*linked, "data/columns.csv"))
     line = re.search(r"<code>(.*?)</code>", text)[1].replace("&#34;", '"')
