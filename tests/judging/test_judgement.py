@@ -6,6 +6,7 @@ import pytest
 
 from tests.judging.judged_points import INCONCLUSIVE, NO_RESULT, NOT_SERVED, OUTSIDE, WITHIN
 from tests.seeded import catches
+from validation.analysis.evidence import where_text
 from validation.judging import judgement
 from validation.judging.judgement import (
     DEVIATION,
@@ -15,6 +16,8 @@ from validation.judging.judgement import (
     largest_deviations,
     missing_number,
     ranges_of,
+    series_of,
+    within_ranges,
 )
 
 verdict_of = judgement.verdict_of
@@ -102,6 +105,23 @@ def test_the_worst_points_are_the_farthest_and_say_what_they_share():
         judged_number("k", {"H": h}, v, 1.0, half, 0.1) for h, v, half in ((0.1, 1.66, 0.15), (0.2, 1.5, 0.0))
     )
     assert largest_deviations([unsure, sure]) == [sure, unsure]
+
+
+def test_ranges_within_tolerance_are_those_of_all_series_or_of_the_values_on_which_they_depend():
+    (series,) = series_of([*points("==#="), *points("=##=", 0.7)])
+    found = within_ranges(series)
+    assert dict(found.values) == {((1.0, 1.0), (1e3, 1e3)): ()} and (found.by, found.every) == ("", ["H"])
+    (series,) = series_of([*points("==##"), *points("##==", 0.7), *points("##==", 1.0)])
+    found = within_ranges(series)
+    assert dict(found.values) == {((1.0, 10.0),): [0.4], ((1e2, 1e3),): [0.7, 1.0]}
+    assert (found.by, found.every, found.numeric) == ("H", [], [])
+    (series,) = series_of(points("####"))
+    assert not within_ranges(series).values
+
+
+def test_a_condition_with_a_unit_has_it_behind_its_value():
+    where = {"wheel": "50 kN, 360 mm", "alpha": 8.0, "wavelength [mm]": 16.0}
+    assert where_text(where) == "50 kN, 360 mm, alpha = 8, wavelength = 16 mm" and where_text({}) == ""
 
 
 def test_a_point_without_a_number_has_its_reason():
