@@ -8,6 +8,7 @@ from hypothesis import given
 
 from tests.analysis.test_judged_claims import point, points_with, verdicts
 from tests.seeded import catches
+from validation.analysis import claim_text
 from validation.analysis.claim_text import (
     NOT_THIS_CURVE,
     AnswerPattern,
@@ -21,7 +22,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 from validation.analysis.number_text import decibels
 from validation.analysis.ranges import verdict_ranges
-from validation.analysis.series import Margin, Series
+from validation.analysis.series import Margin, Series, tables_of
 from validation.analysis.study import Outcomes, Study
 from validation.analysis.verdict import OF_NUMBERS
 
@@ -391,3 +392,22 @@ def test_two_claims_of_one_key_are_refused(keys):
         Study(title="t", method="", series=lambda _: [], claims=[Claim(says=str(i), key=k) for i, k in enumerate(keys)])
     claims = Claim(says="It is so."), Claim(says="It is so."), Claim(key="a"), Claim(key="b")
     assert Study(title="t", method="", series=lambda _: [], claims=claims).claims == claims
+
+
+@pytest.mark.parametrize(
+    ("places", "text"),
+    [
+        ((0.1,), "at h/d = 0.1"),
+        ((3.0, 1.0, 2.0), "at h/d = 1 to 3"),
+        (((5.0, 10.0), (0.0, 5.0)), "at h/d = 0 to 10"),
+        (((2.0, 2.0),), "at h/d = 2"),
+    ],
+)
+def test_places_are_named_from_the_least_to_the_largest_whatever_their_order(places, text):
+    outcome = outcome_of(CLAIM, by_height(AGREE))
+    assert claim_text._places_text(outcome, places) == text
+
+
+def test_a_range_that_is_a_condition_is_a_text_in_the_tables():
+    series = Series("level", "m", (2.0,), where={"band [Hz]": (0.5, 20.0)})
+    assert tables_of([series])[0].columns["band [Hz]"] == ["0.5 to 20"]

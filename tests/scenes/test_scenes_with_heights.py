@@ -61,7 +61,7 @@ def test_a_mean_pressure_of_a_punch_is_its_load_over_the_side_squared(tmp_path):
     ("text", "key", "value", "old", "new"),
     [
         (ROLLING, "wheel.load", "60 kN", 'load = "4905 N"', 'load = "60 kN"'),
-        (ROLLING, "rail.roughness.hurst", "0.5", "hurst = 0.7", "hurst = 0.5"),
+        (ROLLING, "rail.roughness.hurst", "5e-1", "hurst = 0.7", "hurst = 0.5"),
         (ROLLING, "rail.roughness.hurst", "1", "hurst = 0.7", "hurst = 1.0"),
         (TABLE, "simulation.springs", "37", "springs = 100", "springs = 37"),
         (FACE, "heights.spacing", "2 um", 'spacing = ["1 um", "2 um"]', 'spacing = "2 um"'),
