@@ -22,7 +22,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 from validation.analysis.number_text import decibels
 from validation.analysis.ranges import verdict_ranges
-from validation.analysis.series import Margin, Series, tables_of
+from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 from validation.analysis.verdict import OF_NUMBERS
 
@@ -406,8 +406,3 @@ def test_two_claims_of_one_key_are_refused(keys):
 def test_places_are_named_from_the_least_to_the_largest_whatever_their_order(places, text):
     outcome = outcome_of(CLAIM, by_height(AGREE))
     assert claim_text._places_text(outcome, places) == text
-
-
-def test_a_range_that_is_a_condition_is_a_text_in_the_tables():
-    series = Series("level", "m", (2.0,), where={"band [Hz]": (0.5, 20.0)})
-    assert tables_of([series])[0].columns["band [Hz]"] == ["0.5 to 20"]
