@@ -8,6 +8,7 @@ from hypothesis import given
 
 from tests.analysis.test_judged_claims import point, points_with, verdicts
 from tests.seeded import catches
+from validation.analysis import claim_text
 from validation.analysis.claim_text import (
     NOT_THIS_CURVE,
     AnswerPattern,
@@ -391,3 +392,17 @@ def test_two_claims_of_one_key_are_refused(keys):
         Study(title="t", method="", series=lambda _: [], claims=[Claim(says=str(i), key=k) for i, k in enumerate(keys)])
     claims = Claim(says="It is so."), Claim(says="It is so."), Claim(key="a"), Claim(key="b")
     assert Study(title="t", method="", series=lambda _: [], claims=claims).claims == claims
+
+
+@pytest.mark.parametrize(
+    ("places", "text"),
+    [
+        ((0.1,), "at h/d = 0.1"),
+        ((3.0, 1.0, 2.0), "at h/d = 1 to 3"),
+        (((5.0, 10.0), (0.0, 5.0)), "at h/d = 0 to 10"),
+        (((2.0, 2.0),), "at h/d = 2"),
+    ],
+)
+def test_places_are_named_from_the_least_to_the_largest_whatever_their_order(places, text):
+    outcome = outcome_of(CLAIM, by_height(AGREE))
+    assert claim_text._places_text(outcome, places) == text

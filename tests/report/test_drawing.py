@@ -1,6 +1,8 @@
 """Curves of a declared figure belong to their rows: labels, bars, shifts, facets."""
 
+import math
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -91,6 +93,72 @@ def test_names_of_curves_of_which_one_ends_early_are_in_a_legend():
     early = Table("level", {**TABLE.columns, "q a": np.where(TABLE["model"] == "mdr", 1, 4) * TABLE["q a"]})
     (axis,) = drawn(Curve("level", by=("model",), of={"h/d": "first"}), tables=(early,), log="")
     assert not axis.texts and [text.get_text() for text in axis.figure.legends[0].get_texts()] == ["bem", "mdr"]
+
+
+def names_of(axes):
+    """At the ends of curves in each panel, and in the legend."""
+    legends = axes[0].figure.legends
+    ends = ([text.get_text() for text in axis.texts] for axis in axes)
+    return [*ends], [text.get_text() for legend in legends for text in legend.get_texts()]
+
+
+@pytest.mark.parametrize(
+    ("models", "ends", "legend"),
+    [
+        (["bem"], [[]], ["bem"]),
+        (["bem", "mdr"], [[], []], ["bem", "mdr"]),
+        (["bem mdr", "mdr bem"], [[], ["bem", "mdr"]], []),
+        # two rows of two: the last panel of the first row has room beside it
+        (["bem", "bem mdr", "bem", "bem"], [[], ["bem", "mdr"], [], []], []),
+        (["bem", "bem", "bem", "bem mdr"], [[], [], [], []], ["bem", "mdr"]),
+    ],
+)
+def test_a_name_that_several_panels_have_stands_once(models, ends, legend):
+    curves = (tuple(Curve("level", model, of={"h/d": "first"}) for model in names.split()) for names in models)
+    chart = Chart("c", "", tuple(Panel("q a", "y", of_panel) for of_panel in curves))
+    assert names_of(draw(chart, EVIDENCE).axes) == (ends, legend)
+
+
+def test_names_of_curves_that_end_side_by_side_are_a_line_apart():
+    """Nine points, in parts of the height of the panel."""
+    rows = {"model": ["a", "b", "c", "d"], **{name: [1, 2, 2.01, 3] for name in ("value", "low", "high")}}
+    table = Table("level", {name: [*column, *column] for name, column in rows.items()} | {"q a": [1.0] * 4 + [2.0] * 4})
+    (axis,) = drawn(Curve("level", by=("model",)), tables=(table,))
+    places = [text.xyann[1] for text in axis.texts]
+    assert [text.get_text() for text in axis.texts] == ["a", "b", "c", "d"]
+    assert np.diff(places).min() * axis.bbox.height == pytest.approx(9 * axis.figure.dpi / 72)
+
+
+def test_a_family_of_two_columns_has_both_in_its_names():
+    (axis,) = drawn(Curve("level", by=("h/d", "model")))
+    labels = axis.get_legend_handles_labels()[1]
+    for label, (h, model) in zip(labels, product(H, MODELS), strict=True):
+        assert f"h/d = {h:g}" in label and model in label
+
+
+def of_many(count, panels=1):
+    """Axes of one figure of so many models in each panel, the spare places of its grid behind them."""
+    names = [f"model {i}" for i in range(count)]
+    rows = {"model": np.repeat(names, 2).tolist(), "q a": [1.0, 2.0] * count}
+    table = Table("level", {**rows, **dict.fromkeys(("value", "low", "high"), np.repeat(range(1, count + 1), 2))})
+    panel = Panel("q a", "y", (Curve("level", by=("model",)),))
+    return names, draw(Chart("c", "", (panel,) * panels), replace(EVIDENCE, tables=(table,))).axes
+
+
+@pytest.mark.parametrize("count", [6, 7])
+def test_up_to_six_names_stand_at_the_ends_of_curves(count):
+    names, axes = of_many(count)
+    assert names_of(axes) == (([names], []) if count == 6 else ([[]], names))
+
+
+def test_a_legend_of_more_than_fourteen_names_makes_the_figure_higher_by_its_rows():
+    """Fourteen stand in the spare place of five panels on a grid of six; rows are twelve points high."""
+    (names, few), (_, many) = of_many(14, panels=5), of_many(15, panels=5)
+    assert not few[0].figure.legends and [text.get_text() for text in few[5].get_legend().get_texts()] == names
+    (legend,) = many[0].figure.legends
+    heights = [axes[0].figure.get_figheight() for axes in (few, many)]
+    assert 72 * (heights[1] - heights[0]) == pytest.approx(12 * math.ceil(15 / legend._ncols))
+    assert many[5].get_legend() is None
 
 
 def test_a_model_has_its_colour_in_all_figures_and_two_of_a_kind_are_apart_in_grey():

@@ -19,7 +19,7 @@ from validation.scenes.description import description_lines
 from validation.scenes.measured_heights import edited_lines
 from validation.scenes.number_table import TableForm, table_of_text
 from validation.scenes.positions import places_of
-from validation.scenes.text_dialect import WRITTEN
+from validation.scenes.text_dialect import WRITTEN, Dialect
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
 """Nominal wavelengths [mm] and levels [dB]."""
@@ -509,3 +509,52 @@ def test_units_of_columns_go_before_one_of_the_whole_header():
     both, alone = (in_memory(f"Unit: nm\n{names}\n{rows}") for names in ("x [mm],z [um]", "x,z"))
     assert ([column.unit for column in both.columns], both.unit, alone.unit) == (["mm", "um"], "", "nm")
     assert not any("nm" in note for note in both.notes) and any("nm" in note for note in alone.notes)
+
+
+@pytest.mark.parametrize(
+    ("line", "count", "delimiter", "names"),
+    [
+        ("height", 1, "", ["height"]),
+        # one column, below a line of two cells
+        ("date\t2024", 1, "", [""]),
+        ("date;2024", 1, "", [""]),
+        ("x,z,", 2, ",", ["x", "z"]),
+        (",x,z", 2, ",", ["", ""]),
+        ("x [um] z [nm]", 2, " ", ["x", "z"]),
+        ("place along  height", 2, ";", ["place along", "height"]),
+    ],
+)
+def test_a_header_has_a_cell_for_each_column_or_names_none(line, count, delimiter, names):
+    assert [column.name for column in columns_of([line], count, delimiter)] == names
+
+
+@pytest.mark.parametrize(
+    ("delimiter", "line", "nothing"),
+    [(";", '"";""', True), (",", " ,\t,", True), (";", ";2", False), (",", "; 1,2", True), (";", "# 1;2", True)],
+)
+def test_a_line_without_a_cell_or_a_comment_says_nothing(delimiter, line, nothing):
+    """A row of which the first cell is empty begins as a comment does."""
+    assert Dialect(delimiter, ".").says_nothing(line) == nothing
+
+
+@pytest.mark.parametrize(
+    ("above", "below", "commas"),
+    [
+        (["height"], ["1,25"], True),
+        (["x,z", ""], ["1,25"], False),
+        (["x,y,z"], ["1,25"], True),
+        (["2,5 um"], ["1,25"], True),
+        ([], ["1,05", "1,25"], True),
+        ([], ["1,-5", "1,25"], False),
+        ([], ["1,25", "3"], None),
+        ([], ["1,0", "1,5"], None),
+    ],
+)
+def test_a_comma_is_the_decimal_sign_by_header_or_digits_or_is_asked_for(above, below, commas):
+    """None: by neither."""
+    points = Dialect(",", ".")
+    if commas is None:
+        with pytest.raises(ValueError, match="must be two columns or one with decimal commas"):
+            text_dialect._has_decimal_commas(above, below, points)
+    else:
+        assert text_dialect._has_decimal_commas(above, below, points) == commas

@@ -119,6 +119,14 @@ def test_a_first_column_and_a_first_row_of_places_are_no_heights(tmp_path):
     assert f"{said}; its first row runs evenly, 1 µm apart, and is left out of the heights." in ground.notes()
 
 
+@pytest.mark.parametrize(("down", "right"), [(1, -1), (-1, 1), (-1, -1)])
+def test_places_that_fall_turn_the_heights(tmp_path, down, right):
+    table = np.full((65, 65), np.nan)
+    table[1:, 0], table[0, 1:], table[1:, 1:] = np.arange(64)[::down], np.arange(64)[::right], HEIGHT[::down, ::right]
+    (tmp_path / "face.csv").write_text(rows_of(table).replace("nan", "", 1), encoding="utf-8")
+    assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
+
+
 @pytest.mark.parametrize("header", ["z [um]", "# Unit: µm", "Einheit;µm", "height (µm)"])
 def test_a_header_has_the_unit_of_all_heights(tmp_path, header):
     (tmp_path / "face.csv").write_bytes(f"Gerät 7\n{header}\n".encode("latin-1") + rows_of(1e6 * HEIGHT).encode())

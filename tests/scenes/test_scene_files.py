@@ -3,11 +3,14 @@
 import math
 import re
 from dataclasses import replace
+from functools import partial
 
 import pytest
 from scipy.fft import next_fast_len
 
 import mdr
+from tests.scenes.test_measured_heights import refusal
+from tests.seeded import Times, catches
 from validation.scenes.bundled import SCENES, bundled
 from validation.scenes.load import load_scene_with_track
 from validation.scenes.material import Material
@@ -58,6 +61,7 @@ def test_the_track_is_no_shorter_than_the_distance_and_fast(distance, springs):
     fewest = math.ceil(distance / wheel.spacing)
     assert wheel.points == next_fast_len(fewest)
     assert (fewest - 1) * wheel.spacing < distance <= wheel.length == wheel.points * wheel.spacing
+    assert wheel.circumference_points * wheel.spacing == pytest.approx(math.pi, abs=wheel.spacing / 2)
     assert wheel.time_step * wheel.speed == pytest.approx(wheel.spacing, rel=1e-15)
 
 
@@ -205,6 +209,51 @@ def test_scenes_are_refused_by_key_and_value(key, changes, numbers):
     rough = {name: replace(ROUGH, **value) for name, value in changes.items() if isinstance(value, dict)}
     with pytest.raises((ValueError, TypeError), match=f"^{key} must .*{'.*'.join(map(re.escape, numbers))}"):
         scene(**{**changes, **rough})
+
+
+# Limits of a track, which is 2 a long at the least, and has a place at both ends of half a wave
+
+
+A = math.sqrt(0.5) * (3 * 4905 / (4 * 210e9 / (1 - 1 / 9) * math.sqrt(0.5))) ** (1 / 3)
+"""a^2 = R d and F = 4/3 E* sqrt(R) d^(3/2) [m]."""
+LARGEST = 4 / 3 * 210e9 / (1 - 1 / 9) * 0.5**2
+SHORTEST = {"distance": 2.001 * A}, {"distance": 2 * scene().contact_radius}, "distance must be longer than the contact"
+
+
+def waves(longest, shortest):
+    """Roughness with waves of so many contact radii."""
+    return replace(ROUGH, longest=longest * A, shortest=shortest * A)
+
+
+@pytest.mark.parametrize(
+    ("taken", "beyond", "said"),
+    [
+        SHORTEST,
+        # a contact, R d = a^2, as large as the wheel at F = 4/3 E* R^2
+        ({"load": 0.999 * LARGEST, "distance": 2.0}, {"load": 1.001 * LARGEST, "distance": 2.0}, "wheel.load must"),
+        # 10^7 springs around the wheel, or along a track that is longer
+        ({"springs": int(1e7 * A / math.pi)}, {"springs": int(1e7 * A / math.pi) + 1}, "springs must be at most"),
+        (*({"springs": int(2e6 * A) + more, "distance": 5.0} for more in (0, 1)), "springs must be at most"),
+        (
+            {"springs": 10, "ground": waves(9, 0.2)},
+            {"springs": 10, "ground": waves(9, 0.1999)},
+            "must hold two springs",
+        ),
+        # 1029 springs, of which the distance needs 1025: two waves on all of them
+        (
+            {"distance": 10.25 * A, "ground": waves(5.146, 5.144)},
+            {"distance": 10.25 * A, "ground": waves(5.126, 5.124)},
+            "must leave a wave that fits",
+        ),
+    ],
+)
+@catches("a contact as wide as the wheel overlaps", *SHORTEST).at(
+    "validation.scenes.rolling.RollingScene.contact_radius", Times(math.sqrt(2))
+)
+def test_a_track_is_taken_up_to_its_limits(taken, beyond, said):
+    said_of_both = [refusal(partial(scene, **{"ground": None, **changes})) for changes in (taken, beyond)]
+    assert said_of_both[0] == ""
+    assert said in said_of_both[1]
 
 
 # Doubts

@@ -13,6 +13,7 @@ from validation.__main__ import main
 from validation.report.contents import CASES
 from validation.scenes.bundled import SCENES
 from validation.scenes.load import load_scene, load_scene_with_track
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.wheel_body import force_on_the_way
 from validation.simulation.wheel_on_springs import WheelEnsemble, _motion
@@ -81,6 +82,15 @@ def test_note_of_short_waves_that_excite_the_free_vibration(longest, grows):
     assert growth > 1.4 if grows else growth < 1.3
 
 
+def force_by_a_plain_sum(wheels, ground):
+    a, zeta, edges = wheels.contact_radius, wheels.damping, np.geomspace(ground.q_min, ground.q_max, 400_001)
+    q = np.sqrt(edges[1:] * edges[:-1])
+    r = wheels.eigenfrequency / (q * wheels.speed)
+    gain = (1 + (2 * zeta * r) ** 2) / ((1 - r**2) ** 2 + (2 * zeta * r) ** 2)
+    density = (2 * wheels.modulus * np.sin(q * a) / q) ** 2 * np.pi * q * ground.c2d(q) * gain
+    return math.sqrt(2 * np.sum(density * np.diff(edges)))
+
+
 @catches("half of the force that throws a wheel", ratio=9.0, zeta=0.0).at(
     "validation.scenes.wheel_body.force_spectrum_1d", Times(0.25)
 )
@@ -90,16 +100,25 @@ def test_note_of_short_waves_that_excite_the_free_vibration(longest, grows):
 def test_the_force_on_the_way_against_a_plain_sum(ratio, zeta):
     """Of a damped wheel also with the resonance among the waves, where it is finite."""
     wheels = replace(scene(0.1, ratio=ratio), damping=zeta)
-    a, modulus, rail = wheels.contact_radius, wheels.modulus, wheels.rail
-    q = np.geomspace(rail.q_min, rail.q_max, 400_001)
-    r = wheels.eigenfrequency / (q * wheels.speed)
-    gain = (1 + (2 * zeta * r) ** 2) / ((1 - r**2) ** 2 + (2 * zeta * r) ** 2)
-    density = (2 * modulus * np.sin(q * a) / q) ** 2 * np.pi * q * rail.c2d(q) * gain
-    expected = math.sqrt(2 * np.trapezoid(density, q))
+    rail, expected = wheels.rail, force_by_a_plain_sum(wheels, wheels.rail)
     assert force_on_the_way(wheels.body, wheels.speed, [rail]) == pytest.approx(expected, rel=1e-4)
     # independent roughness adds by squares
     both = force_on_the_way(wheels.body, wheels.speed, [rail, replace(rail, rms=2 * rail.rms)])
     assert both == pytest.approx(math.sqrt(5) * expected, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "ground",
+    [
+        replace(TABLE.rail, longest=1e-4, shortest=2e-5),
+        MeasuredHeights(height=np.random.default_rng(2).standard_normal((32, 32)), spacing=(1e-4, 1e-4)),
+    ],
+    ids=["short waves", "rings of measured heights"],
+)
+def test_the_force_of_waves_that_are_shorter_than_the_contact(ground):
+    """Many zeros of sin(q a), and a spectrum with steps."""
+    expected = force_by_a_plain_sum(TABLE, ground)
+    assert force_on_the_way(TABLE.body, TABLE.speed, [ground]) == pytest.approx(expected, rel=1e-4)
 
 
 def test_the_force_on_the_way_is_infinite_at_the_resonance():

@@ -1,5 +1,6 @@
 """A wheel with a track to roll along in time: what its scene must have, what others have not, its earlier names."""
 
+import math
 import re
 from dataclasses import asdict, replace
 
@@ -10,6 +11,7 @@ import validation
 from tests.scenes.test_scene_files import TABLE, written
 from tests.seeded import catches
 from validation.advice.compare import content_of
+from validation.scenes.description import describe
 from validation.scenes.load import bundled_with_track, load_scene, load_scene_with_track
 from validation.scenes.material import Material
 from validation.scenes.measured_heights import MeasuredHeights
@@ -22,6 +24,16 @@ STILL = {"name": "it", "radius": 0.5, "load": 4905.0, "material": STEEL, "ground
 MOVING = {**STILL, "mass": 500.0, "speed": 20.0}
 ON_TRACK = {**MOVING, "distance": 0.65, "springs": 100}
 HEIGHTS = MeasuredHeights(height=1e-7 * np.eye(400), spacing=(1e-4, 1e-4))
+
+
+def test_roughness_of_rail_and_wheel_is_described_by_the_root_of_both_squares():
+    """3 and 4 are 5; d = a^2 / R is 7.857 um under Table 14.1, and h' a / d = h' R / a."""
+    rail, wheel = (replace(ROUGH, rms=rms) for rms in (0.3e-6, 0.4e-6))
+    pairs = dict(describe(RollingScene(**{**ON_TRACK, "ground": rail, "wheel": wheel})))
+    assert pairs["rms height h"] == "500 nm, h/d = 0.0636"
+    slope, ratio = re.fullmatch(r"(\S+), in one .*, h' a/d = (\S+)", pairs["rms slope h'"]).groups()
+    assert float(slope) == pytest.approx(ROUGH.slope_along, rel=5e-3)
+    assert float(ratio) == pytest.approx(ROUGH.slope_along * math.sqrt(0.5 / 7.857e-6), rel=5e-3)
 
 
 def test_a_wheel_has_a_motion_a_track_or_neither():
