@@ -17,11 +17,11 @@ def WheelScene(  # noqa: N802  # the class that it was
     load: float,
     speed: float,
     material: Material,
-    rail: Roughness | None,
     wheel: Roughness | None,
     distance: float,
     springs: int,
     damping: float = 0.0,
+    rail: Roughness | None,
 ) -> RollingScene:
     """Earlier name of `RollingScene` with a track, for one release: ``rail`` is its ``ground``.
 
