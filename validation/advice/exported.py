@@ -13,13 +13,12 @@ from validation.advice.table import (
     by_quantity,
     first_row,
     result_table,
-    stacked,
     swept_of,
     tables_of_models,
 )
 from validation.advice.tolerance import decibels
 from validation.analysis.contents import as_csv, as_json, finite_or_none
-from validation.analysis.evidence import Table
+from validation.analysis.evidence import Table, table_of
 from validation.scenes.scene import Scene
 
 SCHEMA = 2
@@ -123,7 +122,7 @@ def csv_table(comparisons: Sequence[Comparison]) -> Table:
             {"quantity": comparison.quantity} if kinds else {}
         )
         rows += [front | row for row in _rows_of_comparison(comparison)]
-    return stacked(comparisons[0].quantity, rows)
+    return table_of(comparisons[0].quantity, rows)
 
 
 def _rows_of_comparison(comparison: Comparison) -> list[dict[str, object]]:

@@ -5,7 +5,7 @@ errors, and how fast.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -49,13 +49,7 @@ def result_table(comparison: Comparison) -> Table:
         cells = [np.ravel(column).tolist() for column in np.broadcast_arrays(*columns.values())]
         rows += [dict(zip(columns, row, strict=True)) for row in zip(*cells, strict=True)]
     # a scene may have no model at all
-    return stacked(comparison.quantity, rows) if rows else Table(comparison.quantity, {"rank": [], "solved": []})
-
-
-def stacked(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
-    """Rows one under another, with NaN in the columns that a row has not."""
-    columns = dict.fromkeys(column for row in rows for column in row)
-    return Table(name, {column: [row.get(column, math.nan) for row in rows] for column in columns})
+    return table_of(comparison.quantity, rows) if rows else Table(comparison.quantity, {"rank": [], "solved": []})
 
 
 def tables_of_models(table: Table) -> list[Table]:
