@@ -13,7 +13,7 @@ from validation.analysis.verdict import Verdict
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)
-HEAD = "\n| question | is MDR enough? | over | what else is enough |\n|---|---|---|---|\n"
+HEAD = "\n| question | MDR within tolerance? | as a function of | what else is accurate enough |\n|---|---|---|---|\n"
 VERDICTS = ("within tolerance", "inconclusive", "outside tolerance")
 
 
@@ -37,7 +37,11 @@ def cells(row: Mapping[str, Any]) -> list[str]:
         places.setdefault(part.verdict, []).append(f"{where} ({part.split})" if part.split else where)
     where = "; ".join(f"{verdict}: {listed(places[verdict])}" for verdict in VERDICTS if verdict in places)
     instead = "; ".join(model["model"] for model in row["instead"])
-    said = [row["question"], f"**{row['answer']}.** {where}", row["deciding_number"], instead]
+    # one verdict throughout is said once
+    answer = f"**{row['answer']}.** {where}"
+    if list(places) == [row["answer"].lower()]:
+        answer = f"**{row['answer']}**{where.removeprefix(row['answer'].lower())}"
+    said = [row["question"], answer, row["deciding_number"], instead]
     return [text.replace("|", r"\|") for text in said]
 
 

@@ -72,7 +72,7 @@ def test_the_answers_of_the_readme_are_those_of_the_reference_report():
     )
     assert with_answers(text, json.loads(results)) == text
     answers = "Within tolerance|Outside tolerance|Inconclusive|In part|Outside tolerance or inconclusive"
-    rows = re.findall(rf"^\| .* \| \*\*(?:{answers})\.\*\* ", text, flags=re.MULTILINE)
+    rows = re.findall(rf"^\| .* \| \*\*(?:{answers})(?:\.\*\*|\*\*:) ", text, flags=re.MULTILINE)
     assert len(rows) == len(json.loads(results)["when_mdr_is_accurate_enough"]) == 8
     assert with_answers(text, json.loads(results.replace('"verdict": "within', '"verdict": "outside'))) != text
 
