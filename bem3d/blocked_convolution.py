@@ -72,17 +72,17 @@ class BlockedConvolution(Convolution):
     def __call__(self, field: FloatArray) -> FloatArray:
         return self._convolve(field, lambda block: (np.s_[: block.stop - block.start, : self.shape[1]], block))
 
-    def at(self, places: IndexArray, values: FloatArray) -> FloatArray:
+    def at(self, places: IndexArray, values: FloatArray, out: FloatArray | None = None) -> FloatArray:
         def of(block: slice) -> Part:
             first, end = block.start * self.padded[1], block.stop * self.padded[1]
             part = slice(*np.searchsorted(places, (first, end)))
             return places[part] - first, part
 
-        return self._convolve(values, of)
+        return self._convolve(values, of, out)
 
-    def _convolve(self, values: FloatArray, of: Callable[[slice], Part]) -> FloatArray:
+    def _convolve(self, values: FloatArray, of: Callable[[slice], Part], out: FloatArray | None = None) -> FloatArray:
         """Values of the whole field, or in one dimension of some cells; of: those of a block of rows."""
-        result = np.empty(values.shape)
+        result = np.empty(values.shape) if out is None else out
         count, _, width = self._symbols.shape
         view = (-1,) if values.ndim == 1 else self._buffers[0].rows.shape
 
