@@ -217,6 +217,9 @@ class _Dense:
         # cells far apart are moved mostly by their own pressure, so that the diagonal is near enough
         return np.multiply(displacement, self.stiffness, out=out)
 
+    def cut(self, pressure: FloatArray) -> None:
+        np.maximum(pressure, 0.0, out=pressure)
+
 
 @lru_cache(maxsize=1)
 def _influence(half_space: HalfSpace) -> FloatArray:

@@ -11,9 +11,9 @@ from bem3d.window_solve import InitialGuess, solve_on_window
 FEWEST_CELLS = 64
 """An axis of fewer cells is not coarsened: an iteration on 16 cells a side costs nearly as much time as one on 32."""
 COARSE_TOLERANCE = 0.1
-"""A coarser grid is solved to so much of the error that its own start had, which the finer one will have again. Less
-accurate, it costs iterations on the finer grid; at 0.03 and 0.3, as many operator applications, weighted by their cells,
-as at 0.1 or up to 3 % more, and more of them on coarse grids at 0.03."""
+"""A coarser grid is solved to so much of the error that its own start had, which the finer one will have again. At 0.03
+and at 0.3 there are as many operator applications, weighted by their cells, or a few per cent more; at 0.03, too, more
+of them on coarse grids, where an iteration costs more than its applications. Measured on 64 to 256 cells a side."""
 
 
 def initial_guess_from_coarse_grids(problem: Problem, max_iterations: int) -> tuple[InitialGuess, tuple[Level, ...]]:

@@ -15,6 +15,9 @@ STEPS_REMEMBERED = 3
 """Steps remembered, with their images: what conjugacy and truncation need, measured on rough contacts."""
 FIRST_STEP = 0.4
 """The approximate inverse is too stiff by up to a factor of a few: eigenvalues of M K on a contact are 1 and more."""
+LONGEST_CUT_STEP = 0.6
+"""A step that is cut grows no longer. On a large grid some cell is cut in each step: held at the first length, an
+asperity unlike the others would keep 0.6 of its error an iteration, long after all of them have settled."""
 WHOLE_STEP = 0.65
 """A step that cut cells off is taken whole if its best length is at least this part of it: it then gains energy."""
 ROUNDING = 8 * float(np.finfo(np.float64).eps)
@@ -150,6 +153,9 @@ class Operator(Protocol):
     def inverse(self, displacement: FloatArray, free: BoolArray, out: FloatArray) -> object:
         """Nearly the pressure on the free cells that makes this displacement, into an array."""
 
+    def cut(self, pressure: FloatArray) -> object:
+        """Make what is negative zero, in place; what that adds may be taken from cells nearby."""
+
 
 class Iterate:
     """Where the iteration is: pressure p and distance w = g + u - s on the candidate cells, and the slope there.
@@ -189,25 +195,25 @@ class Iterate:
             z -= np.multiply(p, float(np.add.reduce(z)) / self._load.total, out=self.aim)
         step, _ = memory.next
         memory.improve(length, self.uphill, out=self.aim)
-        gain, short = self.cut(np.multiply(self.aim, self._mask, out=step))
+        gain, short = self.cut(cells, np.multiply(self.aim, self._mask, out=step))
         # cut off at p = 0, even a conjugate direction may lead up: the memory is of another contact then
         if not gain > 0:
             memory.forget()
             step, _ = memory.next
-            gain, short = self.cut(np.multiply(z, -length, out=step))
+            gain, short = self.cut(cells, np.multiply(z, -length, out=step))
         if not gain > 0:
             # along the gradient and back to the nearest pressure: downhill unless there is no lower place
             self.aim[:] = self._load.nearest(p - length * cells.stiffness * self.uphill, free)
             gain, short = -dot(self.w, np.subtract(self.aim, p, out=step)), True
         return gain, short
 
-    def cut(self, step: FloatArray) -> tuple[float, bool]:
+    def cut(self, cells: Operator, step: FloatArray) -> tuple[float, bool]:
         """Cut a step off where p would be negative, in place; what it gains to first order, and whether it was cut."""
         p, aim, total = self.pressure, self.aim, self._load.total
         np.add(p, step, out=aim)
         short = bool(np.minimum.reduce(aim) < 0)
         if short:
-            np.maximum(aim, 0.0, out=aim)
+            cells.cut(aim)
         if total is not None:
             # the cut adds pressure, so that a prescribed total is restored before the step is measured
             scale = total / np.add.reduce(aim)
@@ -228,7 +234,7 @@ class Iterate:
             return (best if best <= 1 else min(best, self._to_the_bound(step, best))), length
         if best >= WHOLE_STEP:
             # the energy gained goes as best t - t^2 / 2 along the step: a whole one gains from best = 1/2 on
-            return 1.0, max(length, min(FIRST_STEP, 2 * length))
+            return 1.0, max(length, min(FIRST_STEP, 2 * length), min(LONGEST_CUT_STEP, length * min(best, 2.0)))
         # a part of a cut step stays in bounds, between two pressures that are
         return best, length * max(best, 0.5)
 

@@ -65,6 +65,13 @@ class Candidates:
             return self._near(displacement, out)
         return self._far(displacement, free, out)
 
+    def cut(self, pressure: FloatArray) -> None:
+        """Make what is negative zero, in place; on large grids the force on each block of cells stays."""
+        if self._far is None:
+            np.maximum(pressure, 0.0, out=pressure)
+        else:
+            self._far.cut(pressure)
+
     def _near(self, displacement: FloatArray, out: FloatArray | None = None) -> FloatArray:
         return self._inverse.at(self._in_inverse, displacement, out)
 
