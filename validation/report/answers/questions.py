@@ -52,13 +52,6 @@ OF_THE_CORE = (
         (Alternative(BEM, timed=a_surface(punch.DEVIATION)),),
     ),
     Question(
-        "area-and-gap",
-        "True contact area and mean gap of a rough punch, ensemble means",
-        of_rolled_off(quantity=(interface.AREA, interface.GAP)),
-        level_as_factor,
-        (PRESSED,),
-    ),
-    Question(
         "roll-off",
         "Stiffness of a rough punch with a roll-off, ensemble mean",
         of_rolled_off(quantity=interface.STIFFNESS),
