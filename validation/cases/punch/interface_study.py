@@ -48,6 +48,7 @@ from validation.simulation import model_needed
 from validation.simulation.model_names import BEM
 
 SHOWN_WITHIN = 0.1, 0.3
+OVER_BEM = " over that of boundary elements"
 RANGES = "models within 10 and 30 % of boundary elements"
 
 
@@ -62,49 +63,52 @@ def _is_of_many_waves(number: Number) -> bool:
     return isinstance(waves, float) and waves >= ENOUGH_WAVES
 
 
-def _range_text(case: Interface, by_load: dict[float, list[Number]], tolerance: float) -> str:
-    """Ranges of loads under which each interval on each ground is within a tolerance: "0.03 to 0.3, 3"."""
+def _load(number: Number) -> float:
+    return float(number.where[CONTACT])  # type: ignore[arg-type]
+
+
+class RangesOfModels(Matrix):
+    """Which model is within 10 and 30 % of boundary elements under which loads, intervals on all grounds included."""
+
+    def table(self, numbers: Sequence[Number]) -> Table:
+        within = [f"within {100 * tolerance:g} % [{CONTACT}]" for tolerance in SHOWN_WITHIN]
+        heads = ("quantity", "model", *within, "lowest error", "highest error")
+        rows = [self._row(quantity, model, chosen) for quantity, model, chosen in self._by_model(numbers)]
+        return Table(self.name, {head: [row[i] for row in rows] for i, head in enumerate(heads)})
+
+    def _by_model(self, numbers: Sequence[Number]) -> Iterator[tuple[str, str, list[Number]]]:
+        """Quantity, model and its numbers on grounds of enough waves."""
+        for quantity in COMPARED.values():
+            of_quantity = [n for n in numbers_with(numbers, quantity) if _is_of_many_waves(n)]
+            for model in dict.fromkeys(n.model for n in of_quantity):
+                yield quantity, model, [n for n in of_quantity if n.model == model]
+
+    @staticmethod
+    def _row(quantity: str, model: str, chosen: Sequence[Number]) -> tuple[str, ...]:
+        lowest, highest = (pick(chosen, key=lambda n: n.value) for pick in (min, max))
+        ranges = (_range_text(chosen, tolerance) for tolerance in SHOWN_WITHIN)
+        return (quantity.removesuffix(OVER_BEM), model, *ranges, _error_text(lowest), _error_text(highest))
+
+
+def _range_text(numbers: Sequence[Number], tolerance: float) -> str:
+    """Neighbouring loads under which the intervals of all numbers are within a tolerance: "0.03 to 0.3, 3"."""
+    loads = sorted({_load(number) for number in numbers})
 
     def within(load: float) -> bool:
-        ends = [error_ends(number) for number in by_load.get(load, ())]
-        return bool(ends) and all(-tolerance <= low and high <= tolerance for low, high in ends)
+        ends = [error_ends(number) for number in numbers if _load(number) == load]
+        return all(-tolerance <= low and high <= tolerance for low, high in ends)
 
-    runs = [list(loads) for inside, loads in groupby(case.per_cent, key=within) if inside]
+    runs = [list(run) for inside, run in groupby(loads, key=within) if inside]
     return ", ".join(f"{run[0]:g} to {run[-1]:g}" if len(run) > 1 else f"{run[0]:g}" for run in runs) or "none"
 
 
-def _errors(numbers: Sequence[Number]) -> Iterator[tuple[str, str, list[Number]]]:
-    """Quantity, model and its numbers on grounds of enough waves, in the order of quantities and models."""
-    for quantity in COMPARED.values():
-        of_quantity = [n for n in numbers_with(numbers, quantity) if _is_of_many_waves(n)]
-        for model in dict.fromkeys(n.model for n in of_quantity):
-            yield quantity, model, [n for n in of_quantity if n.model == model]
-
-
-def ranges_of_models(case: Interface, numbers: Sequence[Number]) -> Table:
-    """Which model is within 10 and 30 % from which load to which, its interval on all grounds included."""
-    columns: dict[str, list[object]] = {}
-    for quantity, model, chosen in _errors(numbers):
-        by_load: dict[float, list[Number]] = {}
-        for number in chosen:
-            by_load.setdefault(float(number.where[CONTACT]), []).append(number)  # type: ignore[arg-type]
-        lowest, highest = (pick(chosen, key=lambda n: n.value) for pick in (min, max))
-        row = {"quantity": quantity.split(" over ")[0], "model": model}
-        row |= {f"within {100 * x:g} % [{CONTACT}]": _range_text(case, by_load, x) for x in SHOWN_WITHIN}
-        row |= {"lowest error": _error_text(lowest), "highest error": _error_text(highest)}
-        for name, cell in row.items():
-            columns.setdefault(name, []).append(cell)
-    return Table(RANGES, columns)
-
-
 def _error_text(number: Number) -> str:
-    return f"{per_cent(number)} at {number.where[CONTACT]:g} %"
+    return f"{per_cent(number)} at {_load(number):g} %"
 
 
-def _tables(result: Outcomes) -> tuple[Table, ...]:
+def _work(result: Outcomes) -> tuple[Table]:
     case = result.case
-    of_models = ranges_of_models(case, numbers_of(series(result)))
-    return (*((of_models,) if of_models.columns else ()), worked(case.cells, case.points, [result[PUNCH, 1]]))
+    return (worked(case.cells, case.points, [result[PUNCH, 1]]),)
 
 
 def notes(result: Outcomes) -> list[str]:
@@ -125,7 +129,7 @@ def _off_text(numbers: Sequence[Number], quantity: str, model: str, least: float
     chosen = [
         n
         for n in numbers_with(numbers, quantity, model)
-        if _is_of_many_waves(n) and least <= float(n.where[CONTACT]) <= most  # type: ignore[arg-type]
+        if _is_of_many_waves(n) and least <= _load(n) <= most
     ]
     if not chosen:
         return ""
@@ -136,8 +140,8 @@ def _off_text(numbers: Sequence[Number], quantity: str, model: str, least: float
     else:
         ends = sorted(abs(error) for error in (errors[0], errors[-1]))
         size = f"{ends[0]:.0f} to {ends[1]:.0f} % {'above' if True in sides else 'below'}"
-    loads = [float(n.where[CONTACT]) for n in chosen]  # type: ignore[arg-type]
-    what = quantity.removesuffix(" over that of boundary elements")
+    loads = [_load(n) for n in chosen]
+    what = quantity.removesuffix(OVER_BEM)
     what = "stiffness" if what == "K" else what
     return (
         f"The {what} of {model} is {size} that of boundary elements from {min(loads):g} to {max(loads):g} % "
@@ -271,6 +275,7 @@ STUDY = Study(
         ),
     ),
     matrices=(
+        RangesOfModels(name=RANGES, rows=(), columns=""),
         Matrix(name=EXPONENT, quantity=EXPONENT, rows=(ROLL_OFF, "H"), columns=CONTACT),
         Matrix(
             name="kappa", quantity=KAPPA_LIGHT, rows=(ROLL_OFF, "H"), columns=CONTACT, printed=with_reference
@@ -283,8 +288,7 @@ STUDY = Study(
             printed=per_cent,
         ),
     ),
-    printed=(RANGES,),
-    tables=_tables,
+    tables=_work,
     notes=notes,
 )
 CASE = Case(
