@@ -134,9 +134,8 @@ def sides_by_a_loop(under, periodic):
     return sum(under[a] != under[b[0] % nx, b[1] % ny] for a, b in pairs)
 
 
-@catches("sides of cells along one axis alone", periodic=False).at(
-    "bem3d.contact.np.diff", lambda a, axis: np.zeros(1) if axis else a[1:] != a[:-1]
-)
+@catches("half of a cell for each two sides", periodic=False).at("bem3d.contact.PERIMETER", 0.25)
+@catches("an area without its correction", periodic=True).at("bem3d.Contact.corrected_area", bem3d.Contact.area)
 @pytest.mark.parametrize("periodic", [True, False])
 def test_the_correction_counts_the_sides_of_cells_on_the_boundary(periodic):
     """0.11811 of a cell for each; contacts that go over the end of a periodic grid, cells of 1 : 2."""

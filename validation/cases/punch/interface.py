@@ -146,7 +146,7 @@ ASPERITIES = GreenwoodWilliamson.name, BushGibsonThomas.name
 TAIL, BEARING, BARBER = TailFormula.name, BearingArea.name, Barber.name
 ON_PUNCH, SERIES = "boundary elements, punch", "interface and flat punch in series"
 ROLL_OFF, CONTACT = "q_r L / 2π", "contact in Persson's theory [%]"
-KAPPA, KAPPA_LIGHT = Quantity("A_E_g_over_p"), Quantity("kappa")
+KAPPA, KAPPA_LIGHT = Quantity("A_E_g_over_p", "A E* g / (L² p)"), Quantity("kappa", "κ")
 GAP_OVER_H = Quantity("mean_gap_over_h")
 SCALED, SCALED_PUNCH = Quantity("K_h_over_p"), Quantity("k_h_over_F")
 AREA_OVER = Quantity("contact_area_over_that_of_boundary_elements")
@@ -165,6 +165,8 @@ ENOUGH_WAVES = 8
 """A period: fewer leave more of the lightest loads to the highest summit alone."""
 LEFT_OF_CORRECTION = 0.25
 """Part of the perimeter correction of the contact area that is uncertain: by grids four times as fine."""
+MOST_SPRINGS = 0.9
+"""Share of springs that touch up to which MDR is compared: beyond, its flat punch is all but all of its compliance."""
 DECIBELS: Mapping[str, Any] = {"scale": DECIBEL, "unit": "dB", "shown": lambda level: math.exp(level / DECIBEL)}
 ONE: Mapping[str, Any] = {"reference": 1.0}
 NEAR = Margin(
@@ -293,7 +295,7 @@ def _of_interface(case: Interface, ground: Ground, measured: Measured, springs: 
             yield from _at_each_load(case, ground, EXPONENT, model.name, slopes, margin=None)
     stiffness, finer = estimates["stiffness"]
     alone = Estimates(jackknifed(lambda rows: np.log(without_flat_punch(rows.mean(axis=0))), springs["stiffness"]))
-    alone = Estimates(masked(alone, np.isfinite(alone.values)))
+    alone = Estimates(masked(alone, springs["stiffness"].mean(axis=0) < MOST_SPRINGS))
     yield shown(SCALED, MDR, alone - Estimates.exact(np.log(p / spectrum.height)))
     yield from _at_each_load(case, ground, BESIDE_BEM, MDR, alone - stiffness, finer)
     slope = case.slopes(ground)

@@ -131,20 +131,19 @@ def _off_text(numbers: Sequence[Number], quantity: str, model: str, least: float
         for n in numbers_with(numbers, quantity, model)
         if _is_of_many_waves(n) and least <= _load(n) <= most
     ]
-    if not chosen:
+    if len(chosen) < 2:
         return ""
-    errors = sorted(100 * math.expm1(n.value / DECIBEL) for n in chosen)
-    sides = {error > 0 for error in errors}
-    if len(sides) > 1:
-        size = f"{errors[0]:+.0f} to {errors[-1]:+.0f} % relative to"
+    lowest, *_, highest = sorted(round(100 * math.expm1(n.value / DECIBEL)) for n in chosen)
+    if lowest < 0 < highest:
+        size = f"{lowest:+d} to {highest:+d} % relative to"
     else:
-        ends = sorted(abs(error) for error in (errors[0], errors[-1]))
-        size = f"{ends[0]:.0f} to {ends[1]:.0f} % {'above' if True in sides else 'below'}"
+        least, most = sorted((abs(lowest), abs(highest)))
+        size = f"{least} to {most} % {'above' if highest > 0 else 'below'}"
     loads = [_load(n) for n in chosen]
     what = quantity.removesuffix(OVER_BEM)
     what = "stiffness" if what == "K" else what
     return (
-        f"The {what} of {model} is {size} that of boundary elements from {min(loads):g} to {max(loads):g} % "
+        f"{model}: the {what} is {size} that of boundary elements from {min(loads):g} to {max(loads):g} % "
         f"contact in Persson's theory."
     )
 
@@ -172,7 +171,7 @@ MANY = 3
 """Sizes of the face that show whether it matters."""
 OF_FIRST = {ROLL_OFF: "first", "H": "first"}
 GREENWOOD, BUSH = ASPERITIES
-MODELS = {FITTED: "", GREENWOOD: "", BUSH: "dashed"}
+MODELS = {FITTED: "", GREENWOOD: "", BUSH: ""}
 
 
 def _by_hurst(quantity: str) -> Curve:
@@ -198,10 +197,10 @@ STUDY = Study(
         "Persson's theory has the energy of full contact times γ + (1 - γ) P², P the contact fraction: γ = 1 in 2007, "
         "0.45 by simulations (Yang and Persson 2008). Greenwood and Williamson's asperities have Nayak's moments "
         "(McCool 1986), those of Bush, Gibson and Thomas (1975) all summits with two curvatures, integrated, not their "
-        "asymptote; both are summed over the discrete PSD that is drawn. Two models have the mean gap of boundary "
+        "asymptote; both have the moments of the discrete PSD that is drawn, and no gap below the mean plane. Two models have the mean gap of boundary "
         "elements: the Gaussian tail, K h / p = 1.5 F_1/2(u/h) / F_3/2(u/h), F_n(t) = ∫ (s - t)^n φ(s) ds over s > t, "
         "and the bearing area. MDR ({c.profiles} profiles of {c.points} springs) has a stiffness alone, here without "
-        "its flat punch: 1 / (K L²) = 1 / k - 1 / (E* L). The face of (q_r L / 2π, H) = ({c.pressed:g}) is also that "
+        "its flat punch, 1 / (K L²) = 1 / k - 1 / (E* L), up to contact of 90 % of the springs. The face of (q_r L / 2π, H) = ({c.pressed:g}) is also that "
         "of a square punch of side L under equal forces."
     ),
     series=series,
@@ -264,13 +263,13 @@ STUDY = Study(
             "(d) K of each model over that of boundary elements; grey: within 10 %.",
             Panel(CONTACT, KAPPA, title="contact area").of(_by_hurst(KAPPA), *_theories(KAPPA, MODELS)),
             Panel(CONTACT, GAP_OVER_H, title="mean gap").of(
-                _by_hurst(GAP_OVER_H), *_theories(GAP_OVER_H, {**MODELS, UNFITTED: "dotted"})
+                _by_hurst(GAP_OVER_H), *_theories(GAP_OVER_H, {**MODELS, UNFITTED: "dashed"})
             ),
             Panel(CONTACT, SCALED, title="stiffness", ylim=(0.0, 6.0)).of(
                 _by_hurst(SCALED), *_theories(SCALED, {**MODELS, TAIL: "", MDR: "", BARBER: "dotted"})
             ),
-            Panel(CONTACT, BESIDE_BEM, title="error of the stiffness", log="xy", shade=(1 / 1.1, 1.1), ylim=(0.2, 5)).of(
-                *_theories(BESIDE_BEM, {**MODELS, TAIL: "", MDR: "", UNFITTED: "dotted"})
+            Panel(CONTACT, BESIDE_BEM, title="error of the stiffness", log="xy", shade=(1 / 1.1, 1.1), ylim=(0.2, 2)).of(
+                *_theories(BESIDE_BEM, {**MODELS, TAIL: "", MDR: "", UNFITTED: "dashed"})
             ),
         ),
     ),
@@ -278,7 +277,7 @@ STUDY = Study(
         RangesOfModels(name=RANGES, rows=(), columns=""),
         Matrix(name=EXPONENT, quantity=EXPONENT, rows=(ROLL_OFF, "H"), columns=CONTACT),
         Matrix(
-            name="kappa", quantity=KAPPA_LIGHT, rows=(ROLL_OFF, "H"), columns=CONTACT, printed=with_reference
+            name="κ", quantity=KAPPA_LIGHT, rows=(ROLL_OFF, "H"), columns=CONTACT, printed=with_reference
         ),
         Matrix(
             name="load by load",
