@@ -9,7 +9,7 @@ import bem3d
 from bem3d import contact as contact_module
 from bem3d import kernel
 from tests import oracles
-from tests.seeded import Times, catches
+from tests.seeded import catches
 from validation.theory import closed_forms
 
 WAVE = {"amplitude": 1e-3, "wavelength": 1.0, "modulus": 2.0}

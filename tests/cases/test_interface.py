@@ -198,12 +198,14 @@ def test_models_with_the_measured_gap_have_that_of_boundary_elements():
     """p ~ F_3/2(u / h): a gap of those quantiles leaves K = -dp / du, by differences over a per cent."""
     z = CASE.height * special.ndtri((np.arange(100_000) + 0.5) / 100_000)
 
-    def pressed(ground):
-        return [np.mean(np.maximum(z - u, 0.0) ** 1.5) for u in gaps(ground)]
+    def pressed(ground, shift=0.0):
+        return [np.mean(np.maximum(z - u + shift, 0.0) ** 1.5) for u in gaps(ground)]
 
     def law(ground):
         step = 1e-3 * CASE.height
-        more, less = (np.array([np.mean(np.maximum(z - u + s, 0.0) ** 1.5) for u in gaps(ground)]) for s in (step, -step))
+        more, less = (
+            np.array([np.mean(np.maximum(z - u + s, 0.0) ** 1.5) for u in gaps(ground)]) for s in (step, -step)
+        )
         return (more - less) / (2 * step) / np.array(pressed(ground)) * pressures(ground)
 
     numbers = numbers_with(evidence(law, gap=gaps).numbers, BESIDE_BEM, TAIL)
@@ -217,9 +219,10 @@ def test_models_with_the_measured_gap_have_that_of_boundary_elements():
     "validation.cases.punch.interface.without_flat_punch", lambda stiffness: stiffness
 )
 def test_springs_are_compared_without_their_flat_punch():
-    """1 / K = 1 / k - 1 / E* L: springs of k = K / (1 + K) have the stiffness of the interface."""
+    """1 / K = 1 / k - 1 / E* L: springs of k = K / (1 + K) have the stiffness of the interface, while k < 0.9."""
     numbers = numbers_with(evidence(theory).numbers, BESIDE_BEM, MDR)
-    assert in_decibels(numbers) == pytest.approx(14 * [0.0], abs=0.01)
+    assert len(numbers) == sum(int((theory(ground) < 9).sum()) for ground in CASE.grounds)
+    assert in_decibels(numbers) == pytest.approx(len(numbers) * [0.0], abs=0.01)
     # where all springs touch there is no interface
     full = evidence(theory, springs=np.array([0.1, 0.2, 0.5, 1.0, 1.0, 1.0, 1.0]))
     assert len(numbers_with(full.numbers, BESIDE_BEM, MDR)) == 6

@@ -1,8 +1,9 @@
 """Models of a rough interface without edges: true contact area, mean gap and normal stiffness under a mean pressure.
 
-Each is a plain object with a name and those of `area_fraction`, `mean_gap` and `stiffness` that it has, functions of the
-mean pressure p [Pa]. Symbols: h the rms height, g the rms gradient, u the mean gap, the distance of the mean planes;
-K = -dp/du [Pa/m]. Linear elasticity without friction and adhesion, E* on a rigid isotropic Gaussian roughness.
+Each is a plain object with a name and those of `area_fraction`, `mean_gap` and `stiffness` that it has, functions of
+the mean pressure p [Pa]. Symbols: h the rms height, g the rms gradient, u the mean gap, which is the distance of the
+mean planes; K = -dp/du [Pa/m]. Linear elasticity without friction and adhesion, E* on a rigid isotropic Gaussian
+roughness.
 """
 
 import math
@@ -149,7 +150,8 @@ class Persson:
     elastic energy an area, U = (pi/2) E* int q^2 C P (gamma + (1 - gamma) P^2) dq, is the work of the pressure,
     p du = -dU, so
 
-        p / K = 2 int f(x) / q ds,  u = 2 int int_x^inf f(t) / t dt / q ds,  f = (gamma + 3 (1 - gamma) erf^2) exp(-t^2).
+        p / K = 2 int f(x) / q ds,  u = 2 int int_x^inf f(t) / t dt / q ds,
+        f(x) = (gamma + 3 (1 - gamma) erf(x)^2) exp(-x^2).
 
     For p -> 0: A / A_0 = sqrt(8 / pi) p / (E* g), K = p / u_0 with u_0 = 2 gamma int ds / q, about 1.2 gamma h for a
     plateau and a power law beyond. K grows beyond all bounds towards full contact.
@@ -317,7 +319,8 @@ class BushGibsonThomas(_ByGap):
     sqrt(2 pi) p / (E* g), which a wide spectrum reaches at loads of no use alone.
 
     spectrum: of the roughness; modulus: E* [Pa]. The gap and the range are those of `GreenwoodWilliamson`;
-    gaps up to 10 h. Source: Bush, Gibson and Thomas, Wear 35, 87 (1975); Longuet-Higgins, Phil. Trans. R. Soc. A 250, 157 (1957).
+    gaps up to 10 h. Source: Bush, Gibson and Thomas, Wear 35, 87 (1975); Longuet-Higgins, Phil. Trans. R. Soc. A 250,
+    157 (1957).
     """
 
     spectrum: RoughnessSpectrum

@@ -38,6 +38,8 @@ from validation.theory.interface import (
     quantities_of,
 )
 
+Left = Sequence[Estimate | float]
+"""What the grid leaves at each load, as `grid` of a series."""
 Ground = tuple[int, float]
 """Waves of the roll-off on a side, and H."""
 
@@ -127,7 +129,7 @@ class Interface:
 
 
 def run(case: Interface, engine: Engine = SERIAL) -> Outcomes:
-    """Outcomes by ground and how many times finer the grid is, of the punch by "punch", of the springs by MDR and ground."""
+    """Outcomes by ground and how many times finer the grid is; punch by "punch", springs by MDR and ground."""
     grounds = {key: surfaces for ground in case.grounds for key, surfaces in case.surfaces_of(ground).items()}
     punches = {(PUNCH, finer): surfaces for (_, finer), surfaces in case.surfaces_of(case.pressed).items()}
     springs = {(MDR, g): case.springs(g).profiles(case.height * case.pressures(g)) for g in case.grounds}
@@ -152,10 +154,7 @@ SCALED, SCALED_PUNCH = Quantity("K_h_over_p"), Quantity("k_h_over_F")
 AREA_OVER = Quantity("contact_area_over_that_of_boundary_elements")
 GAP_OVER = Quantity("mean_gap_over_that_of_boundary_elements")
 BESIDE_BEM = Quantity("K_over_that_of_boundary_elements")
-COMPARED = {"area_fraction": AREA_OVER, "mean_gap": GAP_OVER, "stiffness": BESIDE_BEM}
-"""Of each method of an interface model."""
-MEASURED = {"area_fraction": "corrected", "mean_gap": "gap", "stiffness": "stiffness"}
-"""What `press_interface` has for each."""
+COMPARED = AREA_OVER, GAP_OVER, BESIDE_BEM
 STIFFNESS, EXPONENT = "stiffness", Quantity("exponent_of_K_over_p")
 OVER_LOAD = f"K over p beside that at {100 * LIGHT:g} % contact"
 OF_SERIES = Quantity("k_over_that_of_interface_and_flat_punch_in_series")
@@ -205,12 +204,12 @@ class Measured:
         finer = change(statistic, coarse, fine)
         return Estimates(jackknifed(partial(of_rows, statistic), coarse)).on_no_size(finer), finer
 
-    def corrected(self, *names: str, statistic: Statistic = log_mean) -> tuple[Estimates, FloatArray]:
+    def corrected(self, *names: str, statistic: Statistic = log_mean) -> tuple[Estimates, Left]:
         """As `of` with the corrected area of the finer grid, and what that leaves open: a part of the correction."""
         coarse, fine = (self._rows(on, "corrected", *names) for on in self)
         values = Estimates(jackknifed(partial(of_rows, statistic), coarse)) + change(statistic, coarse, fine)
         counted, area = (np.nanmean(self.fine[name], axis=0) for name in ("area", "corrected"))
-        return values, np.log1p(LEFT_OF_CORRECTION * (counted - area) / area)
+        return values, np.log1p(LEFT_OF_CORRECTION * (counted - area) / area).tolist()
 
     @staticmethod
     def _rows(outcome: Outcome, *names: str) -> FloatArray:
@@ -261,59 +260,76 @@ def models_of(case: Interface, ground: Ground, measured: Measured) -> tuple[Inte
     )
 
 
+@dataclass(frozen=True)
+class Compared:
+    """A quantity of boundary elements: ln of it at each load, what the grid leaves, and what divides it in figures."""
+
+    quantity: Quantity
+    over: Quantity
+    values: Estimates
+    left: Left
+    unit: FloatArray
+
+
+def _compared(measured: Measured, p: FloatArray, spectrum: RoughnessSpectrum) -> dict[str, Compared]:
+    """By the methods of an interface model."""
+    h = spectrum.height
+    return {
+        "area_fraction": Compared(KAPPA, AREA_OVER, *measured.corrected(), p / spectrum.gradient),
+        "mean_gap": Compared(GAP_OVER_H, GAP_OVER, *measured.of("gap"), np.full(p.shape, h)),
+        "stiffness": Compared(SCALED, BESIDE_BEM, *measured.of("stiffness"), p / h),
+    }
+
+
 def _of_interface(case: Interface, ground: Ground, measured: Measured, springs: Outcome) -> Iterator[Series]:
     """Area, gap and stiffness along the loads, all models beside boundary elements load by load, and exponents."""
     p, spectrum = case.height * case.pressures(ground), case.drawn(ground)
-    units = {"area_fraction": (KAPPA, p / spectrum.gradient), "mean_gap": (GAP_OVER_H, spectrum.height)}
-    units["stiffness"] = SCALED, p / spectrum.height
     shown = partial(Series, where=_where(ground), along=CONTACT, at=case.per_cent, shown=math.exp)
-    estimates: dict[str, tuple[Estimates, Any]] = {
-        "area_fraction": measured.corrected(),
-        "mean_gap": measured.of("gap"),
-        "stiffness": measured.of("stiffness"),
-    }
-    for name, (quantity, unit) in units.items():
-        values, left = estimates[name]
-        yield shown(quantity, BEM, values - Estimates.exact(np.log(unit * np.ones(p.size))), grid=left)
-    area, left = estimates["area_fraction"]
-    yield from _kappa(case, ground, area - Estimates.exact(np.log(p / spectrum.gradient)), left)
+    compared = _compared(measured, p, spectrum)
+    for one in compared.values():
+        yield shown(one.quantity, BEM, one.values - Estimates.exact(np.log(one.unit)), grid=one.left)
+    yield from _kappa(case, ground, compared["area_fraction"])
     bound = Barber(float(measured.coarse["highest"].mean()), math.inf)
     yield shown(SCALED, bound.name, np.log(bound.stiffness(p) * spectrum.height / p))
     for model in models_of(case, ground, measured):
         for name in quantities_of(model):
             if (name, model.name) == ("area_fraction", UNFITTED):
                 continue  # which does not depend on gamma
-            quantity, unit = units[name]
-            theory = getattr(model, name)(p)
+            one, theory = compared[name], getattr(model, name)(p)
             # asperity models close the gap and more under loads beyond their range
-            yield shown(quantity, model.name, np.log(np.where(theory > 0, theory, np.nan) / unit))
-            ratios, left = _over_measured(measured, name, model, p, theory)
-            yield from _at_each_load(case, ground, COMPARED[name], model.name, ratios, left)
+            positive = np.where(theory > 0, theory, np.nan)
+            yield shown(one.quantity, model.name, np.log(positive / one.unit))
+            over, left = Estimates.exact(np.log(positive)) - one.values, one.left
+            if isinstance(model, TailFormula | BearingArea):
+                over, left = _with_measured_gap(measured, name, model, p)
+            yield from _at_each_load(case, ground, one.over, model.name, over, left)
         if isinstance(model, Persson):
             theory = model.stiffness(p)
             slopes = case.slopes(ground)(theory, theory)
             yield from _at_each_load(case, ground, EXPONENT, model.name, slopes, margin=None)
-    stiffness, finer = estimates["stiffness"]
-    alone = Estimates(jackknifed(lambda rows: np.log(without_flat_punch(rows.mean(axis=0))), springs["stiffness"]))
-    alone = Estimates(masked(alone, springs["stiffness"].mean(axis=0) < MOST_SPRINGS))
-    yield shown(SCALED, MDR, alone - Estimates.exact(np.log(p / spectrum.height)))
-    yield from _at_each_load(case, ground, BESIDE_BEM, MDR, alone - stiffness, finer)
+    yield from _of_springs(case, ground, compared["stiffness"], springs)
     slope = case.slopes(ground)
     yield from _at_each_load(case, ground, EXPONENT, BEM, *measured.of(statistic=slope), PROPORTIONAL)
     ratios, finer = measured.of(statistic=case.beside_heavier(ground))
     yield from _at_each_load(case, ground, OVER_LOAD, BEM, masked(ratios, np.array(case.contacts) < LIGHT), finer)
 
 
-def _over_measured(
-    measured: Measured, name: str, model: InterfaceModel, p: FloatArray, theory: FloatArray
-) -> tuple[Estimates, Sequence[Estimate | float]]:
-    """ln of a quantity of the model, `theory`, over that of boundary elements at each load, and what the grid leaves.
+def _of_springs(case: Interface, ground: Ground, one: Compared, springs: Outcome) -> Iterator[Series]:
+    """MDR without its flat punch, while no more than most of the springs touch."""
+    alone = Estimates(jackknifed(lambda rows: np.log(without_flat_punch(rows.mean(axis=0))), springs["stiffness"]))
+    alone = Estimates(masked(alone, springs["stiffness"].mean(axis=0) < MOST_SPRINGS))
+    over_unit = alone - Estimates.exact(np.log(one.unit))
+    yield Series(one.quantity, MDR, over_unit, where=_where(ground), along=CONTACT, at=case.per_cent, shown=math.exp)
+    yield from _at_each_load(case, ground, one.over, MDR, alone - one.values, one.left)
 
-    Where the model has the measured gap, the sampling errors of both are those of one ratio.
+
+def _with_measured_gap(
+    measured: Measured, name: str, model: TailFormula | BearingArea, p: FloatArray
+) -> tuple[Estimates, Left]:
+    """ln of a quantity of a model with the measured gap over that of boundary elements, and what the grid leaves.
+
+    The sampling errors of both are those of one ratio.
     """
-    if not isinstance(model, TailFormula | BearingArea):
-        values, left = measured.corrected() if name == "area_fraction" else measured.of(MEASURED[name])
-        return Estimates.exact(np.log(np.where(theory > 0, theory, np.nan))) - values, left
 
     def ratio(mean: FloatArray, deviation: FloatArray) -> FloatArray:
         value, gap = mean
@@ -322,12 +338,13 @@ def _over_measured(
 
     if name == "area_fraction":
         return measured.corrected("gap", statistic=ratio)
-    return measured.of(MEASURED[name], "gap", statistic=ratio)
+    return measured.of(name, "gap", statistic=ratio)
 
 
-def _kappa(case: Interface, ground: Ground, values: Estimates, left: FloatArray) -> Iterator[Series]:
+def _kappa(case: Interface, ground: Ground, area: Compared) -> Iterator[Series]:
     """kappa = A E* g / (L^2 p) at each light load, beside the range of the theories."""
-    for place, value, half in zip(case.per_cent, values, left, strict=True):
+    values = area.values - Estimates.exact(np.log(area.unit))
+    for place, value, half in zip(case.per_cent, values, area.left, strict=True):
         if place <= VANISHING:
             kappa = math.exp(value.value)
             estimate = Estimate(kappa, kappa * value.error, value.samples)
@@ -338,7 +355,7 @@ def _kappa(case: Interface, ground: Ground, values: Estimates, left: FloatArray)
                 BEM,
                 (estimate,),
                 where=where,
-                grid=(kappa * half,),
+                grid=(kappa * math.expm1(float(half)),),  # type: ignore[arg-type]
                 reference=middle,
                 margin=BETWEEN,
                 family=family,

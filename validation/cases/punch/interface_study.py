@@ -31,7 +31,6 @@ from validation.cases.punch.interface import (
     KAPPA,
     KAPPA_LIGHT,
     LEFT_OF_CORRECTION,
-    MDR,
     OF_HALF,
     OF_SERIES,
     OVER_LOAD,
@@ -46,6 +45,7 @@ from validation.cases.punch.interface import (
 )
 from validation.simulation import model_needed
 from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
 
 SHOWN_WITHIN = 0.1, 0.3
 OVER_BEM = " over that of boundary elements"
@@ -78,7 +78,7 @@ class RangesOfModels(Matrix):
 
     def _by_model(self, numbers: Sequence[Number]) -> Iterator[tuple[str, str, list[Number]]]:
         """Quantity, model and its numbers on grounds of enough waves."""
-        for quantity in COMPARED.values():
+        for quantity in COMPARED:
             of_quantity = [n for n in numbers_with(numbers, quantity) if _is_of_many_waves(n)]
             for model in dict.fromkeys(n.model for n in of_quantity):
                 yield quantity, model, [n for n in of_quantity if n.model == model]
@@ -126,11 +126,7 @@ def notes(result: Outcomes) -> list[str]:
 
 def _off_text(numbers: Sequence[Number], quantity: str, model: str, least: float, most: float) -> str:
     """ "Persson's contact area is 28 to 34 % below that of boundary elements from 0.03 to 3 % contact."; else empty."""
-    chosen = [
-        n
-        for n in numbers_with(numbers, quantity, model)
-        if _is_of_many_waves(n) and least <= _load(n) <= most
-    ]
+    chosen = [n for n in numbers_with(numbers, quantity, model) if _is_of_many_waves(n) and least <= _load(n) <= most]
     if len(chosen) < 2:
         return ""
     lowest, *_, highest = sorted(round(100 * math.expm1(n.value / DECIBEL)) for n in chosen)
@@ -194,14 +190,16 @@ STUDY = Study(
         "cells a side; ± grid is half of that correction, with its 95 % interval. The contact area is that of the "
         "finer cells less (π - 1 + ln 2) / 24 of a cell for each side of a cell on its boundary (Yastrebov, Anciaux "
         f"and Molinari 2017); ± grid is {100 * LEFT_OF_CORRECTION:g} % of that. "
-        "Persson's theory has the energy of full contact times γ + (1 - γ) P², P the contact fraction: γ = 1 in 2007, "
+        "Persson's theory has the elastic energy of waves in full contact times γ + (1 - γ) P², P the contact "
+        "fraction: γ = 1 in 2007, "
         "0.45 by simulations (Yang and Persson 2008). Greenwood and Williamson's asperities have Nayak's moments "
         "(McCool 1986), those of Bush, Gibson and Thomas (1975) all summits with two curvatures, integrated, not their "
-        "asymptote; both have the moments of the discrete PSD that is drawn, and no gap below the mean plane. Two models have the mean gap of boundary "
-        "elements: the Gaussian tail, K h / p = 1.5 F_1/2(u/h) / F_3/2(u/h), F_n(t) = ∫ (s - t)^n φ(s) ds over s > t, "
+        "asymptote; both have the moments of the discrete PSD that is drawn, and no gap below the mean plane. Two "
+        "models have the mean gap of boundary elements: the Gaussian tail, K h / p = 1.5 F_1/2(u/h) / F_3/2(u/h), "
+        "F_n(t) = ∫ (s - t)^n φ(s) ds over s > t, "
         "and the bearing area. MDR ({c.profiles} profiles of {c.points} springs) has a stiffness alone, here without "
-        "its flat punch, 1 / (K L²) = 1 / k - 1 / (E* L), up to contact of 90 % of the springs. The face of (q_r L / 2π, H) = ({c.pressed:g}) is also that "
-        "of a square punch of side L under equal forces."
+        "its flat punch, 1 / (K L²) = 1 / k - 1 / (E* L), up to contact of 90 % of the springs. The face of "
+        "(q_r L / 2π, H) = ({c.pressed:g}) is also that of a square punch of side L under equal forces."
     ),
     series=series,
     claims=(
@@ -257,8 +255,9 @@ STUDY = Study(
     ),
     charts=(
         Chart("interface", claims=(2, 4)).of(
-            "(a) Contact area times E* g over the load, which is κ at light loads. (b) Mean gap over h. (c) Stiffness K "
-            "times h over the load, level where K is proportional to the load. Symbols: boundary elements, bars 95 % "
+            "(a) Contact area times E* g over the load, which is κ at light loads. (b) Mean gap over h. (c) "
+            "Stiffness K times "
+            "h over the load, level where K is proportional to the load. Symbols: boundary elements, bars 95 % "
             "of sample and grid; lines: the models on the first face; dotted: the least K that is possible (Barber). "
             "(d) K of each model over that of boundary elements; grey: within 10 %.",
             Panel(CONTACT, KAPPA, title="contact area").of(_by_hurst(KAPPA), *_theories(KAPPA, MODELS)),
@@ -268,17 +267,15 @@ STUDY = Study(
             Panel(CONTACT, SCALED, title="stiffness", ylim=(0.0, 6.0)).of(
                 _by_hurst(SCALED), *_theories(SCALED, {**MODELS, TAIL: "", MDR: "", BARBER: "dotted"})
             ),
-            Panel(CONTACT, BESIDE_BEM, title="error of the stiffness", log="xy", shade=(1 / 1.1, 1.1), ylim=(0.2, 2)).of(
-                *_theories(BESIDE_BEM, {**MODELS, TAIL: "", MDR: "", UNFITTED: "dashed"})
-            ),
+            Panel(
+                CONTACT, BESIDE_BEM, title="error of the stiffness", log="xy", shade=(1 / 1.1, 1.1), ylim=(0.2, 2)
+            ).of(*_theories(BESIDE_BEM, {**MODELS, TAIL: "", MDR: "", UNFITTED: "dashed"})),
         ),
     ),
     matrices=(
         RangesOfModels(name=RANGES, rows=(), columns=""),
         Matrix(name=EXPONENT, quantity=EXPONENT, rows=(ROLL_OFF, "H"), columns=CONTACT),
-        Matrix(
-            name="κ", quantity=KAPPA_LIGHT, rows=(ROLL_OFF, "H"), columns=CONTACT, printed=with_reference
-        ),
+        Matrix(name="κ", quantity=KAPPA_LIGHT, rows=(ROLL_OFF, "H"), columns=CONTACT, printed=with_reference),
         Matrix(
             name="load by load",
             quantity=(OVER_LOAD, AREA_OVER, GAP_OVER, BESIDE_BEM, OF_HALF, OF_SERIES),

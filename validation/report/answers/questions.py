@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
-from validation.analysis.number_text import level_as_factor, level_in_decibels, level_in_per_cent
+from validation.analysis.number_text import level_in_decibels, level_in_per_cent
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
 from validation.cases.punch import interface
