@@ -91,8 +91,8 @@ class Comparison:
     scene : IndentationScene, RollingScene or RailScene
         The scene.
     quantity : str
-        "stiffness", "force-rms", "force-spectrum", "acceleration", "acceleration-rms", "contact-filter" or
-        "equivalent-roughness".
+        "stiffness", "contact-area", "mean-gap", "force-rms", "force-spectrum", "acceleration", "acceleration-rms",
+        "contact-filter" or "equivalent-roughness".
     selection : Selection
         Models, estimates and answers in full.
     in_decibels : bool
