@@ -13,7 +13,7 @@ import bem3d
 from tests.cases.planted import TABLE
 from tests.seeded import catches
 from validation.advice.cases import model_selection
-from validation.analysis.study import Outcomes, Study
+from validation.analysis.case import Outcomes, Study
 from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
 from validation.benchmarks.work_precision.case import failure_messages
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR

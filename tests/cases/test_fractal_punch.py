@@ -13,9 +13,9 @@ import mdr
 from tests.oracles import approach_by_least_squares, dense_operator, spring_sum
 from tests.seeded import catches, catches_root_of_two
 from validation.analysis import statistics
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.analysis.statistics import Resolved
-from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch
 from validation.cases.punch.ensembles import APPLICATIONS, DEVIATION, MEAN, OVER, worked
 from validation.cases.punch.fractal_punch import CONVEX, LONG, SLOPE, TREND, FractalPunch

@@ -9,8 +9,8 @@ import pytest
 import bem3d
 from tests.cases.planted import judged, statuses
 from tests.seeded import Times, catches, module_with
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import ClaimStatus
-from validation.analysis.study import Outcomes
 from validation.cases.rolling import reduced_models as models
 from validation.cases.rolling import track_stiffness as stiffness
 from validation.cases.rolling.force_spectrum import ForceSpectrum

@@ -19,7 +19,7 @@ from validation.advice.compare import models_of
 from validation.advice.models.rolling import RollingClaim, linear_filter_3d
 from validation.advice.summary import heading
 from validation.advice.tolerance import tolerance_of
-from validation.analysis.study import Outcomes
+from validation.analysis.case import Outcomes
 from validation.cases.limits.sweeps import LIMITS, Sweep
 from validation.cases.punch.interface import Interface
 from validation.cases.rolling import reduced_models as reduced_case

@@ -37,7 +37,7 @@ SETTINGS = {"HYPOTHESIS_PROFILE": "mutation", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": 
 QUIET = ("-qq", "-x", "--tb=no", "-p", "no:cacheprovider")
 METHODS = ("mdr/*.py", "bem3d/*.py", "validation/theory/closed_forms.py")
 VERDICTS = (
-    *("validation/analysis/series.py", "validation/analysis/claims.py", "validation/analysis/study.py"),
+    *("validation/analysis/series.py", "validation/analysis/claims.py", "validation/analysis/case.py"),
     *("validation/analysis/ranges.py", "validation/analysis/claim_text.py", "validation/analysis/number_text.py"),
     *("validation/analysis/statistics.py", "validation/analysis/evidence.py", "validation/analysis/spectra.py"),
     *("validation/simulation/limit_sweeps.py", "validation/simulation/probing.py", "validation/engine/engine.py"),

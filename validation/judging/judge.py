@@ -11,8 +11,7 @@ from typing import Any, TypeVar
 
 from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.analysis.contents import as_csv, as_json, condition_key, conditions_in_json, finite_or_none
-from validation.analysis.evidence import table_of
-from validation.analysis.verdict import Verdict
+from validation.analysis.evidence import Verdict, table_of
 from validation.judging.judgement import (
     WITHOUT_NUMBER,
     Conditions,
