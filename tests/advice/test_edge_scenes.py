@@ -28,7 +28,7 @@ from validation.advice.quantities import models_of, quantities_of
 from validation.advice.scene_model import Answer
 from validation.analysis.evidence import grouped
 from validation.analysis.series import numbers_of
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 from validation.railway.cases.edge_scenes import RAIL
 from validation.railway.problems.rail_models import rail_quantity
 from validation.scenes.indentation import IndentationScene

@@ -14,7 +14,7 @@ from validation.benchmarks.work_precision import errors
 from validation.benchmarks.work_precision.errors import MethodValues, error, points, reference_of
 from validation.benchmarks.work_precision.pressed import log_deviation
 from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartQuantity, mean_of
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 
 LEVEL = mean_of("level", "k", decibel=True, order=2.0)
 

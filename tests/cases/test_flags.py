@@ -21,7 +21,7 @@ from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, bandwidth_study, fractal_punch, interface
 from validation.cases.rolling import force_spectrum, ridges
 from validation.cases.wheel import distance, half_space, spectrum
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 from validation.simulation import rolling_strip, rough_punch, wheel_on_springs
 from validation.simulation.probing import swept
 from validation.simulation.ridges import RidgesTrack

@@ -21,7 +21,7 @@ from validation.cases.punch.ensembles import APPLICATIONS, DEVIATION, MEAN, OVER
 from validation.cases.punch.fractal_punch import CONVEX, LONG, SLOPE, TREND, FractalPunch
 from validation.cases.punch.fractal_punch_study import EXPONENT, LESS, STUDY
 from validation.cases.rolling.force_spectrum import ForceSpectrum
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR

@@ -47,7 +47,7 @@ VERDICTS = (
 CLAIMS = (
     *("validation/report/answers/*.py", "validation/advice/calibrat*.py", "validation/advice/contact_force.py"),
     *("validation/advice/exported.py", "validation/advice/table.py"),
-    *("validation/railway/scenes/isotropic_line.py", "validation/analysis/sound.py"),
+    *("validation/railway/scenes/isotropic_line.py", "validation/analysis/spectra.py"),
     *("validation/analysis/statistics.py", "validation/railway/problems/rail_*.py"),
 )
 """What claims rest on: grids of Fig. 14.1, calibrated errors, rails, and what is printed of all of them."""

@@ -16,7 +16,7 @@ from validation.advice.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.analysis.spectra import Bands
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
-from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.judging.kinds import from_report
 from validation.judging.kinds.held_out_solves import THIRD, OblongStrip, roll_oblong
 from validation.railway.models.rail import BOUNDARY_ELEMENTS

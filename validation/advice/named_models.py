@@ -6,8 +6,8 @@ from typing import Any, Protocol, SupportsIndex, TypeVar, overload, runtime_chec
 
 from validation.advice.hierarchy import Candidate
 from validation.advice.scene_model import SceneModel
+from validation.analysis.escapes import quoted
 from validation.engine.street import places
-from validation.scenes.printable import quoted
 from validation.scenes.scene import Scene
 from validation.simulation.method import Resolution
 from validation.simulation.model import Model, Target

@@ -12,7 +12,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.number_text import with_prefix
 from validation.analysis.series import Series, numbers_of, tables_of
-from validation.analysis.sound import Sounds
+from validation.analysis.spectra import Sounds
 
 Profile = Literal["quick", "full"]
 

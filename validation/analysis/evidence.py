@@ -8,7 +8,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import ArrayLike
 
-from validation.analysis.sound import Sounds
+from validation.analysis.spectra import Sounds
 
 Place = str | float | tuple[float, float]
 """A region by its name, a parameter by its value, or a range of it by both ends."""

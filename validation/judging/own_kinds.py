@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 import mdr
 from validation.advice.calibration import SCATTER
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.judging.kinds.judge import answer_of
 from validation.judging.kinds.profiles import rms_of_profile
 from validation.judging.kinds.rolling import middle_line

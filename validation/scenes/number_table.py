@@ -12,10 +12,10 @@ from typing import IO
 
 import numpy as np
 
+from validation.analysis.escapes import quoted
 from validation.analysis.statistics import FloatArray
 from validation.scenes import text_dialect
 from validation.scenes.column_names import Column, columns_of, unit_of_all
-from validation.scenes.printable import quoted
 from validation.scenes.text_dialect import COMMENTS, Dialect, about_row, token
 
 MOST_VALUES = 2**24

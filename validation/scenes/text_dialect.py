@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from itertools import accumulate, takewhile
 from typing import IO
 
+from validation.analysis.escapes import printable
 from validation.scenes.column_names import column_of
-from validation.scenes.printable import printable
 
 MOST_LINES, LONGEST_LINE = 2**23, 2**25
 """Most lines of a file, and most characters of a line."""

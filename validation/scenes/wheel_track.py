@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from scipy.fft import next_fast_len
 
 from mdr.checks import count, positive
+from validation.analysis.escapes import shortened
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.printable import shortened
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.wheel_body import OnHalfSpace
 

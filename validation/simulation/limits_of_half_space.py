@@ -7,7 +7,7 @@ import numpy as np
 
 import bem3d
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation.probing import Point, Values, along, answered, message_of, recorded, swept
 from validation.simulation.rough_punch import PunchRoughness
 

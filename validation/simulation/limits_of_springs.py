@@ -7,7 +7,7 @@ import numpy as np
 
 import mdr
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
 from validation.simulation.integrators import VELOCITY_VERLET

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 
 BEM, FILTER, FULL, SPRINGS = "bem3d", "(14.11)", "springs, full contact", "springs, one-sided"
 CONTACT: dict[str, mdr.rolling.Contact] = {FILTER: "linear", FULL: "full", SPRINGS: "one-sided"}

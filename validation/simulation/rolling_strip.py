@@ -16,9 +16,8 @@ import numpy as np
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.engine.convergence import FEWEST, NotConvergedError
 from validation.engine.engine import Engine, FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import FEWEST, NotConvergedError, random_generator
 from validation.simulation.surface import draw_surface, draw_track, middle_of
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d, linear_force

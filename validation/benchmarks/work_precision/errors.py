@@ -12,8 +12,8 @@ from validation.analysis.statistics import jackknife_error, student
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration, configurations_of
 from validation.benchmarks.work_precision.pareto import Point
 from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartProblem, ChartQuantity, values_of
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import FloatArray, Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.simulation.method import Values
 
 IntArray = NDArray[np.int64]

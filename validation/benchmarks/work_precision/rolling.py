@@ -16,8 +16,8 @@ import mdr
 from validation.analysis.spectra import Bands, levels, waves
 from validation.benchmarks.timing import Configuration, NamedMethod, along
 from validation.benchmarks.work_precision.problem import FILTER_3D, MDR, MDR_ROLLING, ChartProblem, ChartQuantity, Grids
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import FloatArray
+from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values

@@ -16,7 +16,7 @@ from validation.analysis.series import REPEATABLE, Counted, Estimates, Margin
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, jackknifed
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.engine.convergence import require_realisations
+from validation.engine.realisations import require_realisations
 from validation.simulation import rolling_strip
 from validation.simulation.model_names import FILTER_3D
 from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE

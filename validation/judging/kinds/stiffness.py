@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 import mdr
 from validation.analysis.quantity import Quantity
 from validation.analysis.statistics import moments
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.judging import judgement
 from validation.judging.judgement import Conditions
 from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, compared, rule

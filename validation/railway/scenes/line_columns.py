@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from validation.analysis.escapes import shortened
 from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.line_steps import STANDS_OUT, noise_among
 from validation.scenes.column_names import PLACE, Column
@@ -20,7 +21,6 @@ from validation.scenes.positions import (
     places_of,
     runs_one_way,
 )
-from validation.scenes.printable import shortened
 from validation.scenes.table_files import heights_of_columns
 from validation.scenes.units import LENGTHS, UNITS, in_unit
 
