@@ -20,7 +20,7 @@ from validation.advice.models import rolling as rolling_models
 from validation.advice.quantities import models_of, quantities_of
 from validation.engine.realisations import random_generator
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.scenes.roughness import Roughness
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import method, surface

@@ -33,7 +33,7 @@ from validation.railway.cases.edge_scenes import RAIL
 from validation.railway.problems.rail_models import rail_quantity
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation import rolling_levels
 from validation.simulation.method import distance
 from validation.simulation.model import Cost, GridModel

@@ -89,9 +89,9 @@ def test_results_are_as_good_as_the_code_behind_them(edited, module, old, new, c
 
 def test_the_classes_of_a_problem_count(problems):
     """A scene may come from a module that the solve does not import."""
-    plain = version_behind("validation.theory.wheel", None)
-    assert version_behind("validation.theory.wheel", problems[0]) != plain
-    assert version_behind("validation.theory.wheel", {"key": (problems[0],)}) != plain
+    plain = version_behind("validation.theory.rolling", None)
+    assert version_behind("validation.theory.rolling", problems[0]) != plain
+    assert version_behind("validation.theory.rolling", {"key": (problems[0],)}) != plain
 
 
 @pytest.mark.slow

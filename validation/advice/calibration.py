@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from validation.engine.engine import FloatArray
 from validation.engine.sources import version_of
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.rolling import RollingScene
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity, RollingScene
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.indentation import ground_of
 from validation.simulation.method import Resolution

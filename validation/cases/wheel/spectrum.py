@@ -18,7 +18,7 @@ from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.simulation import wheel_features
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
-from validation.theory import wheel as wheel_theory
+from validation.theory import rolling as wheel_theory
 
 
 @dataclass(frozen=True, kw_only=True)

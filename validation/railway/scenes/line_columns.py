@@ -9,10 +9,9 @@ import numpy as np
 from validation.analysis.escapes import shortened
 from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.line_steps import STANDS_OUT, noise_among
-from validation.scenes.column_names import PLACE, Column
-from validation.scenes.number_table import NumberTable
-from validation.scenes.positions import (
+from validation.scenes.number_table import (
     MOST_OFF,
+    NumberTable,
     Places,
     faults_of_places,
     first_of_each,
@@ -22,6 +21,7 @@ from validation.scenes.positions import (
     runs_one_way,
 )
 from validation.scenes.table_files import heights_of_columns
+from validation.scenes.text_dialect import PLACE, Column
 from validation.scenes.units import LENGTHS, UNITS, in_unit
 
 MOSTLY = 0.9
