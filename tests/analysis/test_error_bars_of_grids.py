@@ -24,7 +24,7 @@ from validation.analysis.statistics import (
     on_no_size,
     student,
 )
-from validation.benchmarks.work_precision.errors import MethodValues, error
+from validation.benchmarks.work_precision.pareto import MethodValues, error
 from validation.benchmarks.work_precision.problem import ChartQuantity, mean_of
 from validation.cases.punch import fractal_punch_study as study
 from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS

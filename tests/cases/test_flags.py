@@ -23,8 +23,8 @@ from validation.cases.rolling import force_spectrum, ridges
 from validation.cases.wheel import distance, half_space, spectrum
 from validation.engine.realisations import NotConvergedError
 from validation.simulation import rolling_strip, rough_punch, wheel_on_springs
-from validation.simulation.probing import swept
-from validation.simulation.ridges import RidgesTrack
+from validation.simulation.limits import swept
+from validation.simulation.rolling_strip import RidgesTrack
 
 
 class Given:

@@ -40,8 +40,8 @@ VERDICTS = (
     *("validation/analysis/series.py", "validation/analysis/claims.py", "validation/analysis/case.py"),
     *("validation/analysis/ranges.py", "validation/analysis/claim_text.py", "validation/analysis/number_text.py"),
     *("validation/analysis/statistics.py", "validation/analysis/evidence.py", "validation/analysis/spectra.py"),
-    *("validation/simulation/limit_sweeps.py", "validation/simulation/probing.py", "validation/engine/engine.py"),
-    *("validation/benchmarks/work_precision/errors.py", "validation/benchmarks/work_precision/pareto.py"),
+    *("validation/simulation/limits.py", "validation/engine/engine.py"),
+    *("validation/benchmarks/work_precision/pareto.py", "validation/benchmarks/work_precision/pareto.py"),
     "validation/advice/hierarchy.py",
 )
 CLAIMS = (

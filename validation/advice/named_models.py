@@ -11,8 +11,7 @@ from validation.engine.street import places
 from validation.scenes.scene import Scene
 from validation.simulation.method import Resolution
 from validation.simulation.model import Model, Target
-from validation.simulation.model_aliases import label_of, note_of
-from validation.simulation.model_names import SHORT
+from validation.simulation.model_names import SHORT, label_of, note_of
 
 T = TypeVar("T", SceneModel, Candidate)
 

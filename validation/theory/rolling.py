@@ -86,7 +86,6 @@ def break_exponent(hurst: float) -> float:
     return 1 / (2 * hurst + 1)
 
 
-FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
 
 NODES = 24
