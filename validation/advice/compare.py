@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from bem3d.diagnostics import HIGHEST_PRESSURE
-from bem3d.read_only import kept
+from bem3d.results import kept
 from mdr.checks import count
 from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate, Selection, rejected, select_model
