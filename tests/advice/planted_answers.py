@@ -15,8 +15,7 @@ from validation.advice.scene_model import Answer
 from validation.advice.tolerance import tolerance_of
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.rolling import RollingScene
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity, RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.model import Cost, ErrorEstimate
 

@@ -28,12 +28,12 @@ from validation.advice.quantities import models_of, quantities_of
 from validation.advice.scene_model import Answer
 from validation.analysis.evidence import grouped
 from validation.analysis.series import numbers_of
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 from validation.railway.cases.edge_scenes import RAIL
 from validation.railway.problems.rail_models import rail_quantity
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation import rolling_levels
 from validation.simulation.method import distance
 from validation.simulation.model import Cost, GridModel

@@ -16,8 +16,7 @@ from validation.advice.named_models import models_named
 from validation.advice.quantities import models_of, quantities_of
 from validation.advice.summary import WIDTH, summary
 from validation.scenes.load import load_varied
-from validation.simulation.model_aliases import label_of
-from validation.simulation.model_names import SPRINGS_THAT_READ
+from validation.simulation.model_names import SPRINGS_THAT_READ, label_of
 
 SPECTRUM = "rolling_wheel --quantity force-spectrum"
 

@@ -16,7 +16,7 @@ from validation.advice.summary import STATUS_IN_WORDS, WIDTH, models_of_page, si
 from validation.advice.table import error_of_difference
 from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.scenes.load import bundled_for_compare
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 
 ENDS = tuple(end for words in STATUS_IN_WORDS.values() for end in (words, words.replace("not solved", "solved")))
 """Of the rows of models."""

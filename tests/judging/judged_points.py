@@ -5,7 +5,7 @@ from pkgutil import resolve_name
 from types import SimpleNamespace
 from unittest import mock
 
-from validation.analysis.verdict import Verdict
+from validation.analysis.evidence import Verdict
 from validation.judging.kinds import stiffness, surfaces
 from validation.judging.kinds.judge import JUDGES
 from validation.judging.registry import offer

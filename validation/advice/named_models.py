@@ -6,13 +6,12 @@ from typing import Any, Protocol, SupportsIndex, TypeVar, overload, runtime_chec
 
 from validation.advice.hierarchy import Candidate
 from validation.advice.scene_model import SceneModel
+from validation.analysis.escapes import quoted
 from validation.engine.street import places
-from validation.scenes.printable import quoted
 from validation.scenes.scene import Scene
 from validation.simulation.method import Resolution
 from validation.simulation.model import Model, Target
-from validation.simulation.model_aliases import label_of, note_of
-from validation.simulation.model_names import SHORT
+from validation.simulation.model_names import SHORT, label_of, note_of
 
 T = TypeVar("T", SceneModel, Candidate)
 

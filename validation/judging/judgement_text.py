@@ -9,10 +9,9 @@ from itertools import starmap
 from typing import TYPE_CHECKING
 
 from validation.advice.tolerance import Tolerance
-from validation.analysis.evidence import where_text
+from validation.analysis.evidence import OF_NUMBERS, Verdict, where_text
 from validation.analysis.number_text import deviation_text, interval_text, place_value
 from validation.analysis.ranges import VerdictRange
-from validation.analysis.verdict import OF_NUMBERS, Verdict
 from validation.judging.judgement import (
     LEVEL,
     JudgedNumber,

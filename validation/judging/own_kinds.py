@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 import mdr
 from validation.advice.calibration import SCATTER
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.judging.kinds.judge import answer_of
 from validation.judging.kinds.profiles import rms_of_profile
 from validation.judging.kinds.rolling import middle_line
@@ -23,7 +23,7 @@ from validation.judging.registry import Caller, FloatArray, Given
 from validation.railway.problems.rail_models import ContactFilter, rail_quantity
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.railway.problems.rail_strip import structure_of
-from validation.scenes.rolling_quantity import QUANTITIES, RollingQuantity
+from validation.scenes.rolling import QUANTITIES, RollingQuantity
 from validation.scenes.roughness import Roughness, RoughSurface
 from validation.simulation.indentation import ground_of, height_of, is_rough, side_of, sufficient_cells
 from validation.simulation.method import FEWEST, STUDENT, Resolution, Result, realisations

@@ -27,6 +27,7 @@ from validation.advice.calibration import (
     kind_of,
 )
 from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene, Group, answers_in
+from validation.analysis.escapes import quoted
 from validation.benchmarks.discrete import ContactProblem
 from validation.benchmarks.peers import TIGHTER, ColdSolve, Field, PeerSolver
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
@@ -36,7 +37,6 @@ from validation.judging.replies import raised
 from validation.judging.source_files import digest_of, file_of, sources_of
 from validation.judging.worker import Called, OthersError, Visitor, offered_in
 from validation.scenes.load import load_scene
-from validation.scenes.printable import quoted
 from validation.scenes.scene import Scene
 from validation.simulation.method import Resolution, Result, distance
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model

@@ -15,6 +15,7 @@ from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
 from validation.advice.summary import findings, heading, in_full, in_short, summary
 from validation.advice.tolerance import tolerance_of
+from validation.analysis.escapes import printable
 from validation.analysis.number_text import format_seconds
 from validation.engine.engine import Engine
 from validation.engine.files import write_output
@@ -23,7 +24,6 @@ from validation.engine.street import objects_of_houses
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, comma_separated
 from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
-from validation.scenes.printable import printable
 from validation.scenes.reader import errors_of_file
 from validation.scenes.scene import Scene
 

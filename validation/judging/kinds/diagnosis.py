@@ -6,9 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from validation.analysis.evidence import where_text
+from validation.analysis.evidence import Verdict, where_text
 from validation.analysis.statistics import FloatArray
-from validation.analysis.verdict import Verdict
 from validation.judging.judgement import (
     AGAIN,
     DEVIATION,

@@ -17,9 +17,8 @@ import mdr
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, extrapolated
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import NotConvergedError, random_generator
 from validation.judging.judgement import Conditions
 from validation.judging.kinds import rolling
 from validation.judging.kinds.references import Reference

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from validation.analysis.evidence import Verdict
 from validation.analysis.statistics import Estimate, FloatArray
-from validation.analysis.verdict import Verdict
 from validation.judging.judgement import AGAIN, LEVEL, RATIO, Conditions, JudgedNumber, judged_number, missing_number
 from validation.judging.kinds.references import Reference
 from validation.judging.registry import Caller, Failed, Offered

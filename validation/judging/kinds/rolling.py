@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 import mdr
-from validation.analysis.quantity import Quantity
+from validation.analysis.quantity import MEAN_FORCE, RMS_FORCE, Quantity
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
@@ -21,7 +21,6 @@ from validation.judging.judgement import RATIO, Conditions
 from validation.judging.kinds.judge import Finding, ModelAnswer, answer_of, attempted, compared
 from validation.judging.kinds.references import Reference, about, reference_rows
 from validation.judging.registry import Caller, Failed
-from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import force_variance, linear_force

@@ -10,15 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import mdr
-from validation.analysis.quantity import Quantity
+from validation.analysis.quantity import MEAN_STIFFNESS, Quantity
 from validation.analysis.statistics import moments
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.judging import judgement
 from validation.judging.judgement import Conditions
 from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, compared, rule
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.registry import Caller, Failed, FloatArray
-from validation.simulation.quantities import MEAN_STIFFNESS
 from validation.simulation.rough_punch import PlateauSpectrum
 
 SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3

@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from validation.analysis.escapes import shortened
 from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.line_steps import STANDS_OUT, noise_among
-from validation.scenes.column_names import PLACE, Column
-from validation.scenes.number_table import NumberTable
-from validation.scenes.positions import (
+from validation.scenes.number_table import (
     MOST_OFF,
+    NumberTable,
     Places,
     faults_of_places,
     first_of_each,
@@ -20,8 +20,8 @@ from validation.scenes.positions import (
     places_of,
     runs_one_way,
 )
-from validation.scenes.printable import shortened
 from validation.scenes.table_files import heights_of_columns
+from validation.scenes.text_dialect import PLACE, Column
 from validation.scenes.units import LENGTHS, UNITS, in_unit
 
 MOSTLY = 0.9

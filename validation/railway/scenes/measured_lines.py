@@ -9,6 +9,7 @@ from typing import get_args
 import numpy as np
 
 from mdr.checks import finite, positive
+from validation.analysis.escapes import printable, shortened
 from validation.analysis.spectra import Detrend, NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.level_files import LEAST, MICROMETRE, RoughnessLevels, curve
@@ -16,7 +17,6 @@ from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import UNTOUCHED, LineEdits, Outliers, edited
 from validation.scenes.measured_heights import MeasuredHeights, complete_heights, edited_lines, without_unknown_ends
 from validation.scenes.number_table import NumberTable
-from validation.scenes.printable import printable, shortened
 from validation.scenes.reader import Reader, errors_of, one_word, table, values
 from validation.scenes.table_files import FORM, read_scene_table, sentence_about
 from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
