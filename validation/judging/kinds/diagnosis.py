@@ -17,10 +17,9 @@ from validation.judging.judgement import (
     Conditions,
     JudgedNumber,
 )
-from validation.judging.kinds.filters import ALPHA, FILTER, WAVE
-from validation.judging.kinds.held_out_solves import SUFFIX
+from validation.judging.kinds.held_out_points import SUFFIX
 from validation.judging.kinds.profiles import MOMENTS
-from validation.judging.kinds.rolling import APART, HEIGHT, MEAN, SLOPE, Q
+from validation.judging.kinds.rolling import ALPHA, APART, FILTER, HEIGHT, MEAN, SLOPE, WAVE, Q
 from validation.judging.kinds.stiffness import BY_BAND, DIFFERENT_DRAWS, EQUAL_DRAWS, FORCE
 from validation.judging.kinds.stiffness import DEVIATION as OF_STIFFNESS
 

@@ -22,12 +22,25 @@ from validation.cases.wheel import features
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.judging.judgement import DEVIATION
-from validation.judging.kinds import held_out_solves, own, rolling, stiffness, surfaces
-from validation.judging.kinds.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
-from validation.judging.kinds.held_out_solves import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
+from validation.judging.kinds import held_out_points, own, rolling, stiffness
+from validation.judging.kinds.held_out_points import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
 from validation.judging.kinds.laws import FEATURE, REGION, by_region
 from validation.judging.kinds.references import Reference, as_file, file_name, rows_of
-from validation.judging.kinds.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
+from validation.judging.kinds.rolling import (
+    ALPHA,
+    DIAMETER,
+    FILTER,
+    GRIDS,
+    HEIGHT,
+    HEIGHTS,
+    LOAD,
+    OFFSET,
+    SLOPE,
+    WAVE,
+    Q,
+    bands_of,
+    spectrum_of,
+)
 from validation.judging.kinds.stiffness import BAND, FORCE, ROLL_OFF, H
 from validation.scenes.load import load_scene_with_track
 from validation.simulation.model_names import BEM, FILTER_3D, SPRINGS
@@ -226,32 +239,32 @@ def _regions(report: Report, _: Engine) -> Iterator[Reference]:
 
 
 OF_STRIPS = {"heights": HEIGHTS, "cells": GRIDS, "length": rolling.ALONG, "width": rolling.ACROSS, "seed": rolling.SEED}
-OF_SURFACES = {name: getattr(surfaces, name.upper()) for name in ("hursts", "surfaces", "cells", "seed", "tolerance")}
+OF_SURFACES = {name: getattr(stiffness, name.upper()) for name in ("hursts", "surfaces", "cells", "seed", "tolerance")}
 _file, _UNIT = ReferenceFile, "dB, over F_Hertz^2 (h/d)^2"
 
 
-def _solved(solve: held_out_solves.Solve) -> Find:
+def _solved(solve: held_out_points.Solve) -> Find:
     """Without a report."""
     return lambda report, engine: solve(engine)
 
 
 HELD_OUT: Mapping[str, ReferenceFile] = {
-    held_out(stiffness.MEAN): _file("k / (E* L)", "judging/held out", _solved(held_out_solves.pressed), OF_PUNCHES),
-    held_out(surfaces.OF_SURFACE): _file("k / (E* L)", "judging/held out", _solved(held_out_solves.faces), OF_FACES),
+    held_out(stiffness.MEAN): _file("k / (E* L)", "judging/held out", _solved(held_out_points.pressed), OF_PUNCHES),
+    held_out(stiffness.OF_SURFACE): _file("k / (E* L)", "judging/held out", _solved(held_out_points.faces), OF_FACES),
     held_out(rolling.LEVEL): _file(
         f"{_UNIT}, of an octave",
         "judging/held out",
-        _solved(held_out_solves.of_octaves),
-        held_out_solves.OF_STRIPS,
+        _solved(held_out_points.of_octaves),
+        held_out_points.OF_STRIPS,
     ),
     held_out(rolling.RMS): _file(
-        _UNIT, "judging/held out", _solved(held_out_solves.of_variance), held_out_solves.OF_STRIPS
+        _UNIT, "judging/held out", _solved(held_out_points.of_variance), held_out_points.OF_STRIPS
     ),
     held_out(rolling.EACH): _file(
-        "over F_Hertz", "judging/held out", _solved(held_out_solves.at_positions(by_load=False)), OF_POSITIONS
+        "over F_Hertz", "judging/held out", _solved(held_out_points.at_positions(by_load=False)), OF_POSITIONS
     ),
     held_out(rolling.LIFT): _file(
-        "over d", "judging/held out", _solved(held_out_solves.at_positions(by_load=True)), OF_POSITIONS
+        "over d", "judging/held out", _solved(held_out_points.at_positions(by_load=True)), OF_POSITIONS
     ),
 }
 """Between and beside the tables."""
@@ -268,8 +281,8 @@ SOURCES: Mapping[str, ReferenceFile] = {
     rolling.MEAN: _file("over F_Hertz", "rolling", _mean),
     rolling.EACH: _file("over F_Hertz", "judging/rolling", _positions("force", roll_strip), OF_STRIPS),
     rolling.LIFT: _file("over d", "judging/rolling", _positions("approach", roll_under_load), OF_STRIPS),
-    surfaces.OF_SURFACE: _file(
-        "k / (E* L)", "judging/surfaces", lambda _, engine: surfaces.solved(engine), OF_SURFACES
+    stiffness.OF_SURFACE: _file(
+        "k / (E* L)", "judging/surfaces", lambda _, engine: stiffness.solved_surfaces(engine), OF_SURFACES
     ),
     FILTER: _file("dB, A3", "across", _filters),
     FEATURE: _file("rad/s, but for the slope", "wheel", _features),
