@@ -9,8 +9,7 @@ from typing import Any
 
 from validation.advice.compare import Comparison, SceneProblem, Swept, swept_values
 from validation.advice.export import Export
-from validation.advice.named_models import label_notes
-from validation.advice.quantities import all_quantities, quantities_of
+from validation.advice.models_of_scene import all_quantities, label_notes, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
 from validation.advice.summary import findings, heading, in_full, in_short, summary
