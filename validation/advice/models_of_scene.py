@@ -1,4 +1,4 @@
-"""Models of a scene: those of each of its quantities, and those that a user names: mdr, bem, a label or its beginning."""
+"""Models of a scene: those of each of its quantities, and those a user names: mdr, bem, a label or its beginning."""
 
 from collections.abc import Callable, Collection, Sequence
 from pkgutil import resolve_name

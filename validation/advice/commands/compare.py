@@ -230,10 +230,7 @@ def _write(comparisons: list[Comparison], arguments: argparse.Namespace) -> None
     if arguments.json or arguments.csv or _exports(arguments):
         _write_data(comparisons, arguments)
     if arguments.figure is not None:
-        from validation.advice.figure import (
-            figure_over_seconds,
-            to_figure,  # which takes half a second to import
-        )
+        from validation.advice.figure import figure_over_seconds, to_figure  # which takes half a second to import
 
         form = arguments.figure.suffix[1:]
         picture = figure_over_seconds(comparisons[0], form) if arguments.over else to_figure(comparisons, form=form)

@@ -7,7 +7,7 @@ cells of two lengths; punches have another H, bandwidth and longest wave; surfac
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
-from functools import cache, partial
+from functools import partial
 from itertools import groupby, product
 from typing import Any, NamedTuple
 
@@ -27,23 +27,8 @@ from validation.judging.kinds import profiles, rolling, stiffness
 from validation.judging.kinds.judge import Finding, answer_of, attempted, compared
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Density, Q, WheelAtApproach, octave, variance_of
-from validation.judging.kinds.stiffness import (
-    BAND,
-    FIRST,
-    FORCE,
-    MEAN,
-    MODULUS,
-    SIDE,
-    H,
-    JudgedPunch,
-    answers_of,
-    load_of,
-    on_finer_grid,
-)
+from validation.judging.kinds.stiffness import BAND, FIRST, FORCE, MEAN, H
 from validation.judging.registry import Caller, Failed
-from validation.railway.problems.rail_strip import strip_bands
-from validation.railway.scenes.rail import RailScene
-from validation.railway.theory.contact_filters import half_space_filter
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
 from validation.simulation.rough_punch import PunchRoughness, Surface, press_lightly
 from validation.simulation.surface import draw_surface
@@ -318,7 +303,7 @@ def faces(engine: Engine) -> Iterator[Reference]:
     """On the finer of two grids."""
     grids = FACE_CELLS, 2 * FACE_CELLS
     outcomes = engine.map_groups(press_face, {n: [PressedFace(face, n) for face in FACES] for n in grids})
-    return on_finer_grid([{SURFACE: str(face)} for face in FACES], FACE_LOADS, *(outcomes[n] for n in grids))
+    return stiffness.on_finer_grid([{SURFACE: str(face)} for face in FACES], FACE_LOADS, *(outcomes[n] for n in grids))
 
 
 OF_FACES: dict[str, Any] = {
@@ -353,17 +338,19 @@ def judged(model: Caller) -> Iterator[Finding]:
 def _stiffness(model: Caller) -> Iterator[Finding]:
     """Mean at another H, bandwidth and longest wave."""
     rows = reference_rows(held_out(MEAN))
-    yield from stiffness.beside_punches(rows, answers_of(model, [JudgedPunch.at(row.where) for row in rows]))
+    yield from stiffness.beside_punches(
+        rows, stiffness.answers_of(model, [stiffness.JudgedPunch.at(row.where) for row in rows])
+    )
 
 
 def _surfaces(model: Caller) -> Iterator[Finding]:
     """Of isotropic and elongated faces."""
     height = {str(face): face for face in FACES}
     for name, rows in groupby(reference_rows(held_out(stiffness.OF_SURFACE)), lambda row: str(row.where[SURFACE])):
-        face = FACE_HEIGHT * SIDE * height[name].height(FACE_CELLS)
+        face = FACE_HEIGHT * stiffness.SIDE * height[name].height(FACE_CELLS)
         for row in rows:
-            load = load_of(row[stiffness.FORCE])
-            value = model.call(height=face, spacing=SIDE / FACE_CELLS, modulus=MODULUS, load=load)
+            load = stiffness.load_of(row[stiffness.FORCE])
+            value = model.call(height=face, spacing=stiffness.SIDE / FACE_CELLS, modulus=stiffness.MODULUS, load=load)
             yield Finding(row, stiffness.over_unit(value))
 
 
@@ -423,33 +410,13 @@ def _filter(model: Caller) -> Iterator[Finding]:
         scene = rolling.scene_of(*wheel)
         for alpha in ALPHAS:
             if math.isfinite(alpha) or rolling.answers_isotropic(model):
-                rows = _linear_references(scene, alpha)
-                answers = attempted(rolling.in_bands, model, scene, alpha, [i for i, _ in rows])
-                yield from compared((row for _, row in rows), answers)
-
-
-@cache
-def _linear_references(scene: RailScene, alpha: float) -> list[tuple[int, Reference]]:
-    """Number and reference of the bands that count."""
-    axes = scene.contact.semi_axes
-    levels = rolling.a3(scene, alpha, partial(half_space_filter, semi_axes=axes))
-    where = {"wheel": scene.name, rolling.ALPHA: "isotropic" if math.isinf(alpha) else alpha}
-    waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
-    lowest = np.minimum.accumulate(levels)
-    return [
-        (
-            i,
-            Reference(
-                {**where, rolling.WAVE: wave},
-                float(levels[i]),
-                grid=OF_LINEAR,
-                unit=DECIBELS,
-                quantity=held_out(rolling.FILTER),
-            ),
-        )
-        for i, wave in enumerate(waves)
-        if lowest[i] > rolling.COUNTED
-    ]
+                bands = rolling.counted_bands(scene, alpha)
+                where, quantity = rolling.conditions_of(scene.name, alpha), held_out(rolling.FILTER)
+                rows = [
+                    Reference({**where, rolling.WAVE: wave}, level, 0.0, OF_LINEAR, DECIBELS, quantity)
+                    for _, wave, level in bands
+                ]
+                yield from compared(rows, attempted(rolling.in_bands, model, scene, alpha, [i for i, *_ in bands]))
 
 
 # --- rules ---

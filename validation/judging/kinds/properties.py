@@ -14,18 +14,7 @@ from validation.judging.judgement import Conditions
 from validation.judging.kinds import rolling, stiffness
 from validation.judging.kinds.judge import Answer, Finding, LostError, ModelAnswer, answer_of, attempted, rule
 from validation.judging.kinds.references import reference_rows
-from validation.judging.kinds.stiffness import (
-    FEWEST,
-    FORCE,
-    MEAN,
-    MODULUS,
-    SIDE,
-    H,
-    JudgedPunch,
-    answers_of,
-    draws,
-    load_of,
-)
+from validation.judging.kinds.stiffness import FORCE, MEAN, MODULUS, SIDE, H, JudgedPunch
 from validation.judging.registry import Caller, Failed
 from validation.theory.closed_forms import SQUARE_PUNCH
 
@@ -84,7 +73,11 @@ def judged_scaling(model: Caller) -> Iterator[Finding]:
 
 def _answers(model: Caller, arguments: Mapping[str, Any]) -> FloatArray:
     """One, or those of the same draws each time. Raises LostError where there is none."""
-    values = draws(model, arguments, FEWEST) if "rng" in model.asks else np.atleast_1d(answer_of(model, **arguments))
+    values = (
+        stiffness.draws(model, arguments, stiffness.FEWEST)
+        if "rng" in model.asks
+        else np.atleast_1d(answer_of(model, **arguments))
+    )
     if model.kind.startswith(PUNCH) and not values[0] > 0:
         raise LostError(Failed(f"a stiffness of {values[0]:.3g} N/m"))
     return values
@@ -109,7 +102,7 @@ def _places(model: Caller) -> Iterator[tuple[Conditions, dict[str, Any]]]:
     if model.kind == "stiffness_of_surface":
         surface, spacing = SIDE * stiffness.roughness(HURSTS[0]).surface(stiffness.CELLS, 0), SIDE / stiffness.CELLS
         for force in LOADS:
-            arguments = {"height": surface, "spacing": spacing, "modulus": MODULUS, "load": load_of(force)}
+            arguments = {"height": surface, "spacing": spacing, "modulus": MODULUS, "load": stiffness.load_of(force)}
             yield {FORCE: force}, arguments
     if model.kind == "force_spectrum":
         for height, qa in product(HEIGHTS, WAVES):
@@ -146,7 +139,7 @@ ROUNDING, SPHERE, TRACK = 1e-9, 64, 8
 def normalised_stiffness(model: Caller, force: float) -> float:
     """k / (E* L)."""
     punch = JudgedPunch(0.7, force)
-    answer = answers_of(model, [punch], FEWEST)[punch]
+    answer = stiffness.answers_of(model, [punch], stiffness.FEWEST)[punch]
     if isinstance(answer, Failed):
         raise LostError(answer)
     return answer.mean.value

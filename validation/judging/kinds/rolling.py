@@ -328,13 +328,16 @@ def _over_ground(
 ) -> Iterator[Finding]:
     """One ground, in the bands that count."""
     wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
-    waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
-    lowest = np.minimum.accumulate(_linear_levels(scene, alpha))
-    counted = [row for row in rows if lowest[waves.index(row[WAVE])] > COUNTED]
-    bands = [waves.index(row[WAVE]) for row in counted]
-    ground = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
-    levels = attempted(in_bands, model, scene, alpha, bands)
+    bands = {wave: band for band, wave, _ in counted_bands(scene, alpha)}
+    counted = [row for row in rows if row[WAVE] in bands]
+    levels = attempted(in_bands, model, scene, alpha, [bands[row[WAVE]] for row in counted])
+    ground = conditions_of(wheel, alpha)
     yield from compared([replace(row, where={**ground, WAVE: row[WAVE]}) for row in counted], levels)
+
+
+def conditions_of(wheel: str, alpha: float) -> dict[str, float | str]:
+    """Of a filter: the wheel, and what lies across."""
+    return {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
 
 
 def in_bands(model: Caller, scene: RailScene, alpha: float, bands: Sequence[int]) -> FloatArray:
@@ -374,8 +377,12 @@ def _in_one_call(integral: Callable[[Transfer], FloatArray], transfer: Transfer)
 
 
 @cache
-def _linear_levels(scene: RailScene, alpha: float) -> FloatArray:
-    return a3(scene, alpha, partial(half_space_filter, semi_axes=scene.contact.semi_axes))
+def counted_bands(scene: RailScene, alpha: float) -> list[tuple[int, float, float]]:
+    """Bands that count, up to the first below `COUNTED`: number, wavelength [mm], and A3 of linear theory [dB]."""
+    levels = a3(scene, alpha, partial(half_space_filter, semi_axes=scene.contact.semi_axes))
+    waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
+    lowest = np.minimum.accumulate(levels)
+    return [(i, wave, float(levels[i])) for i, wave in enumerate(waves) if lowest[i] > COUNTED]
 
 
 @cache
