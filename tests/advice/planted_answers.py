@@ -10,7 +10,7 @@ import numpy as np
 import validation
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection, select_model
-from validation.advice.quantities import models_of, quantity_of
+from validation.advice.models_of_scene import models_of, quantity_of
 from validation.advice.scene_model import Answer
 from validation.advice.tolerance import tolerance_of
 from validation.railway.scenes.rail import RailScene

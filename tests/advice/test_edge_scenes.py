@@ -24,7 +24,7 @@ from validation.advice.cases.edge_scenes import (
 from validation.advice.cases.model_selection import PARTS, EdgeTrial, edge_trials, solve_edge, true_error
 from validation.advice.cases.model_selection_study import OF_EDGES, at_edges, edges_of
 from validation.advice.compare import compare
-from validation.advice.quantities import models_of, quantities_of
+from validation.advice.models_of_scene import models_of, quantities_of
 from validation.advice.scene_model import Answer
 from validation.analysis.evidence import grouped
 from validation.analysis.series import numbers_of

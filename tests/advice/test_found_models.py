@@ -11,7 +11,7 @@ from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.advice import models
 from validation.advice.compare import compare
 from validation.advice.models import boundary_elements_pressed, rolling
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.summary import summary
 from validation.benchmarks import timing

@@ -22,7 +22,7 @@ from validation.advice.cases.random_scenes import KINDS, random_scene
 from validation.advice.compare import compare
 from validation.advice.hierarchy import needed, select_model
 from validation.advice.models import boundary_elements_pressed
-from validation.advice.quantities import all_quantities, models_of, quantities_of
+from validation.advice.models_of_scene import all_quantities, models_of, quantities_of
 from validation.advice.summary import bands_of, summary
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.report.contents import CASES

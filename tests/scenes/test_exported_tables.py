@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from tests.railway.test_rail_files import CURVE, LEVELS, loaded
 from tests.seeded import catches
 from validation.railway.scenes import level_files
-from validation.railway.scenes.line_columns import along_the_track
-from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.measured_lines import MeasuredLines, along_the_track
 from validation.scenes import text_dialect
 from validation.scenes.description import description_lines
 from validation.scenes.measured_heights import edited_lines

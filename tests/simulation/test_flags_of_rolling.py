@@ -18,7 +18,7 @@ from validation.benchmarks.work_precision import problem as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.judging.kinds import from_report
-from validation.judging.kinds.held_out_solves import THIRD, OblongStrip, roll_oblong
+from validation.judging.kinds.held_out_points import THIRD, OblongStrip, roll_oblong
 from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models, wheel_on_rail
 from validation.railway.problems.equivalent_displacement import RolledRail, roll_rail
@@ -92,7 +92,7 @@ PATHS = {
     ),
     "validation.simulation.limits:strip_widths": lambda: strip_widths((13, 18), finer=6),
     "validation.judging.kinds.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
-    "validation.judging.kinds.held_out_solves:roll_oblong": lambda: roll_oblong(OBLONG),
+    "validation.judging.kinds.held_out_points:roll_oblong": lambda: roll_oblong(OBLONG),
 }
 
 

@@ -17,8 +17,18 @@ from bem3d.results import kept
 from mdr.checks import count
 from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate, Selection, rejected, select_model
-from validation.advice.named_models import ComparedModels, Decorated, Own, models_named, names_and_own, own_candidates
-from validation.advice.quantities import BY_NAME, models_of, quantities_of, quantity_of
+from validation.advice.models_of_scene import (
+    BY_NAME,
+    ComparedModels,
+    Decorated,
+    Own,
+    models_named,
+    models_of,
+    names_and_own,
+    own_candidates,
+    quantities_of,
+    quantity_of,
+)
 from validation.advice.scene_model import SceneModel, Shared
 from validation.advice.tolerance import Tolerance, decibels, tolerance_of
 from validation.analysis.escapes import shortened

@@ -25,10 +25,10 @@ from validation.judging.judgement import (
     within_ranges,
 )
 from validation.judging.kinds import rolling, stiffness
-from validation.judging.kinds.held_out_solves import held_out
+from validation.judging.kinds.held_out_points import held_out
 from validation.judging.kinds.laws import in_words, table_14_1
 from validation.judging.kinds.own import MAIN
-from validation.judging.kinds.sweeps import SWEPT
+from validation.judging.kinds.properties import SWEPT
 from validation.judging.solvers.properties import Symptom
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from validation.advice.calibration_scenes import OTHER_SEED, QUANTITIES
 from validation.advice.cases.edge_scenes import MEASURED, OF_HOUSES, PUNCH, ROLLING, SPHERE, WHEEL, edge_scene
 from validation.advice.cases.random_scenes import KINDS, random_scene
 from validation.advice.hierarchy import REFUSALS, select_model, try_to_solve, unsolved
-from validation.advice.quantities import models_of, quantity_of
+from validation.advice.models_of_scene import models_of, quantity_of
 from validation.advice.scene_model import Answer, SceneModel, Shared
 from validation.advice.tolerance import relative
 from validation.analysis.case import Outcomes
