@@ -11,7 +11,7 @@ from tests.seeded import Times, catches
 from validation.advice.advice import in_full, in_short
 from validation.advice.compare import compare
 from validation.advice.models import boundary_elements_pressed
-from validation.advice.quantities import quantities_of
+from validation.advice.models_of_scene import quantities_of
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.simulation.indentation import height_of
 from validation.simulation.model import Target

@@ -7,9 +7,9 @@ import pytest
 from scipy import special
 
 from tests.seeded import Times, catches
+from validation.analysis.case import Outcomes
 from validation.analysis.claim_text import NOT_THIS_CURVE
 from validation.analysis.evidence import ClaimStatus, Number, Verdict, numbers_with
-from validation.analysis.study import Outcomes
 from validation.cases.punch import interface_study
 from validation.cases.punch.interface import (
     AREA_OVER,
