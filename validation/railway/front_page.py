@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claim_text import listed
 from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell
+from validation.analysis.number_text import enumeration
 from validation.railway.cases.across_study import LOUDER
 from validation.railway.cases.rolled_filters import OVER_BEM
 from validation.report.section import Section
@@ -51,7 +51,7 @@ def right_filters(table: Table) -> str:
     judged = [name for name in table.columns if name.startswith(WORST)]
     rows = zip(table.columns["filter"], *(table.columns[name] for name in judged), strict=True)
     names = [str(name) for name, *cells in rows if all(_agrees(cell) for cell in cells)] if judged else []
-    return listed(names) if names else ""
+    return enumeration(names) if names else ""
 
 
 def _agrees(cell: object) -> bool:
