@@ -18,7 +18,7 @@ from validation.analysis.claim_text import (
     headline_pattern,
 )
 from validation.analysis.claims import Claim, Matrix
-from validation.analysis.evidence import ClaimStatus, Role, Verdict
+from validation.analysis.evidence import ClaimStatus, Role, Verdict, Whose
 from validation.analysis.number_text import decibels, enumeration
 from validation.analysis.ranges import verdict_ranges
 from validation.analysis.series import Margin, Series
@@ -227,6 +227,12 @@ def test_members_are_chosen_by_quantity_model_and_conditions():
     assert chosen(model="b", where={"across": float}) == [] and len(chosen(where={"h/d": float})) == 1
     both = ({"model": "b"}, {"where": {"h/d": 0.1}})
     assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
+
+
+def test_whose_statement_a_claim_is_is_checked_where_it_is_made():
+    with pytest.raises(TypeError, match=r"^whose of the claim 'level' must be one of Whose\.BOOK, .*, got 'the book'$"):
+        Claim(key="level", whose="the book")
+    assert [Whose(whose.earlier) for whose in Whose] == list(Whose)
 
 
 def test_an_identity_tests_no_claim_and_stands_in_a_matrix():

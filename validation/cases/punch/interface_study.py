@@ -59,7 +59,7 @@ def notes(result: Outcomes) -> list[str]:
 
 
 of_interface = partial(
-    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.FIELD
+    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.LITERATURE
 )
 MANY = 3
 """Sizes of the face that show whether it matters."""
