@@ -149,6 +149,7 @@ def _strip(cells: Sequence[Cell]) -> list[StripCell]:
 
 
 def _strip_cell(cell: Cell) -> StripCell:
+    """The cell as the strip prints it, with the text of its place."""
     both = cell.place if isinstance(cell.place, tuple) else None
     return StripCell(span([cell.place]), cell.verdict, cell.alone, both, cell.by_condition)
 
