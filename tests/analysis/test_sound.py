@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from validation.analysis.sound import (
+from validation.analysis.spectra import (
     Sound,
     Sounds,
     a_weighting,

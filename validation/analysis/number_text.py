@@ -6,9 +6,8 @@ Functions of a float come first, those of a `Number` with its interval, unit and
 import math
 from collections.abc import Callable, Sequence
 
-from validation.analysis.evidence import Number
+from validation.analysis.evidence import Number, Place
 from validation.analysis.statistics import DECIBEL
-from validation.analysis.verdict import Place
 
 NONE = "—"
 """In the place of a number that is not finite."""
