@@ -183,7 +183,7 @@ def numbers(evidence, name):
     "validation.analysis.statistics.Resolved.minus_independent",
     lambda a, b: Resolved(a.value.minus_independent(b.value), 0.0),
 )
-@catches("no extrapolation").at("validation.cases.punch.fractal_punch.on_no_size", statistics.on_finest)
+@catches("no extrapolation").at("validation.cases.punch.fractal_punch.extrapolate_to_zero", statistics.on_finest)
 def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
     """First order: 5 % stiffer on cells half as wide is 10 % at cells of no size. Cells twice as wide that are 10 %
     softer say the same but for what the logarithms differ by, and that is left. No change of the deviation."""

@@ -259,7 +259,7 @@ def weighted_sum(weights: Sequence[float] | FloatArray, parts: Sequence[Linearis
 
 @dataclass(frozen=True, eq=False)
 class Resolved:
-    """A value on cells of no size; grid: half-width that the grids leave open."""
+    """A value from several grids, and the half-width that they leave open, in the unit of the value."""
 
     value: Linearised
     grid: float
@@ -269,8 +269,12 @@ class Resolved:
         return Resolved(self.value.minus_independent(other.value), self.grid + other.grid)
 
 
-def on_no_size(grids: Sequence[Linearised]) -> Resolved:
-    """Extrapolate the two finest grids to zero cell size; grid error: the change since the two before."""
+def extrapolate_to_zero(grids: Sequence[Linearised]) -> Resolved:
+    """2 f(h) - f(2h): the two finest grids extrapolated to zero cell size, of first order.
+
+    grids: at least three, from coarse to fine, each with cells half as long. Grid error: the change from the same
+    extrapolation on the two before.
+    """
     coarse, middle, fine = grids[-3:]
     grid_error = abs(2 * (fine.value - middle.value) - (middle.value - coarse.value))
     return Resolved(2.0 * fine - middle, grid_error)

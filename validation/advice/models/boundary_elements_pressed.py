@@ -60,8 +60,11 @@ def cost(target: Target, resolution: Resolution) -> Cost:
     return Cost(work=work, seconds=CELL * work + PRESS)
 
 
-def sample_alone(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
-    """Only a solve tells what the grid leaves."""
+def least_sampling_error(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+    """The predicted error: of `MOST` surfaces, half of the tolerance at least, zero of measured heights.
+
+    Without a grid error, which is estimated after the solve. Out of range where the coarsest grid resolves no wave.
+    """
     coarsest, ground = round(min(grid.size for grid in references(target, resolution))), ground_of(target.scene)
     if not ground.is_single and ground.q_min > face.shortest_held(target.scene, coarsest):
         reason = f"a grid of {coarsest}² cells, the reference of its grid error, resolves no wave"
@@ -130,7 +133,7 @@ MODEL = GridModel(
     most=MOST,
     compared=FEWEST,
     cost=cost,
-    claim=sample_alone,
+    claim=least_sampling_error,
     prepare=prepare,
     grid_error=left_by_grid,
 )

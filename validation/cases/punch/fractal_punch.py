@@ -17,10 +17,10 @@ from validation.analysis.statistics import (
     Moments,
     Resolved,
     combined,
+    extrapolate_to_zero,
     multilevel_moments,
     nearest,
     on_finest,
-    on_no_size,
 )
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press, worked
@@ -220,7 +220,7 @@ class PunchStatistics:
     def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """On cells of no size, or on twice the springs."""
         steps = list(self.steps(hurst, method, statistic, level).values())
-        return on_no_size(steps) if method == BEM else on_finest(steps)
+        return extrapolate_to_zero(steps) if method == BEM else on_finest(steps)
 
     def ratio(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """Springs over boundary elements; surfaces and profiles are independent.

@@ -218,7 +218,7 @@ STUDY = Study(
             short="MDR's mean stiffness agrees with that of boundary elements",
             key="mean-stiffness",
         ),
-        Claim(quantity=EXPONENT, model=OF_BEM, along=f"-{shown.H}", whose=Whose.FIELD).saying(
+        Claim(quantity=EXPONENT, model=OF_BEM, along=f"-{shown.H}", whose=Whose.LITERATURE).saying(
             "The exponent of the stiffness over the force falls from 0.77 at H = 0 to 0.51 at H = 1 (Pohrt and Popov "
             "2012; the straight line between both is ours).",
             short="The exponent of the stiffness agrees with that of Pohrt and Popov (2012)",

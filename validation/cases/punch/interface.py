@@ -169,7 +169,7 @@ class Measured:
     def of(self, name: str = "stiffness", statistic: Statistic = log_mean) -> tuple[Estimates, Estimates]:
         """ln of the mean, by default, on cells of no size at each load, and the changes that leave its grid error."""
         finer = change(statistic, self.coarse[name], self.fine[name])
-        return Estimates(jackknifed(partial(of_rows, statistic), self.coarse[name])).on_no_size(finer), finer
+        return Estimates(jackknifed(partial(of_rows, statistic), self.coarse[name])).extrapolate_to_zero(finer), finer
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -238,7 +238,7 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
     coarse, fine = (np.stack([p["stiffness"], i["stiffness"]], axis=1) for p, i in zip(punch, interface, strict=True))
     both = np.stack([coarse[: len(fine)], fine], axis=1)
     finer = Estimates(jackknifed(lambda rows: _over_series(rows[:, 1]) - _over_series(rows[:, 0]), both))
-    ratios = Estimates(jackknifed(_over_series, coarse)).on_no_size(finer)
+    ratios = Estimates(jackknifed(_over_series, coarse)).extrapolate_to_zero(finer)
     yield from _at_each_load(case, ground, OF_SERIES, BEM, ratios, finer)
 
 
