@@ -25,7 +25,7 @@ from validation.engine.random_numbers import random_generator
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
-from validation.simulation.rough_punch import PunchRoughness, press_profiles, press_surface
+from validation.simulation.rough_punch import STIFFNESS_ERROR, PunchRoughness, press_profiles, press_surface
 
 CASE = FractalPunch(
     hursts=(0.7,),
@@ -79,7 +79,7 @@ def test_surfaces_are_pressed_as_they_stand():
         pressure = bem3d.solve(half_space, -height, approach=approach, tolerance=1e-10).pressure
         cells = np.flatnonzero(pressure > 0)
         stiffness = np.linalg.solve(dense[np.ix_(cells, cells)], np.ones(cells.size)).sum() / 64
-        assert found["stiffness"][i] == pytest.approx(stiffness, rel=1e-5)
+        assert found["stiffness"][i] == pytest.approx(stiffness, rel=5 * STIFFNESS_ERROR)
         assert found["area"][i] == pytest.approx(cells.size / 64)
         gap = dense @ pressure.ravel() - height.ravel() - approach
         # a residual of 1e-5 leaves so much of the overlap
@@ -190,12 +190,13 @@ def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
     evidence = synthetic(fine=1.05, coarse=1 / 1.1)
     left = 20 * abs(2 * np.log10(1.05) - np.log10(1.1))
     assert [n.value for n in numbers(evidence, MEAN)] == pytest.approx([-20 * 2 * np.log10(1.05)] * 2, abs=1e-3)
+    solver = 20 / math.log(10) * 3 * STIFFNESS_ERROR
     for found, name, grid in (
-        (evidence, MEAN, left),
-        (evidence, DEVIATION, 0),
-        (synthetic(fine=1.05), MEAN, 20 * 2 * np.log10(1.05)),
+        (evidence, MEAN, left + solver),
+        (evidence, DEVIATION, 6 * solver),
+        (synthetic(fine=1.05), MEAN, 20 * 2 * np.log10(1.05) + solver),
     ):
-        assert [n.grid for n in numbers(found, name)] == pytest.approx([grid] * 2, abs=1e-6)
+        assert [n.grid for n in numbers(found, name)] == pytest.approx([grid] * 2, abs=2e-5)
 
 
 @catches("the mean of a decade for its worst force").at(

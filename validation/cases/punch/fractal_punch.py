@@ -23,7 +23,16 @@ from validation.analysis.statistics import (
     on_no_size,
 )
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press, worked
+from validation.cases.punch.ensembles import (
+    DEVIATION,
+    FEW,
+    FORCE,
+    MEAN,
+    PunchEnsembles,
+    left_by_solver,
+    press,
+    worked,
+)
 from validation.engine.engine import Outcome
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
@@ -218,9 +227,12 @@ class PunchStatistics:
         return {n: logarithm(of_grid) for n, of_grid in moments.items()}
 
     def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
-        """On cells of no size, or on twice the springs."""
+        """On cells of no size, with what the solver leaves, or on twice the springs."""
         steps = list(self.steps(hurst, method, statistic, level).values())
-        return on_no_size(steps) if method == BEM else on_finest(steps)
+        if method != BEM:
+            return on_finest(steps)
+        resolved = on_no_size(steps)
+        return resolved.widened(left_by_solver() if statistic == MEAN else left_by_solver(resolved.value.value))
 
     def ratio(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """Springs over boundary elements; surfaces and profiles are independent.
