@@ -358,14 +358,14 @@ def regression_mean(values: FloatArray, controls: FloatArray) -> Linearised:
     Parameters
     ----------
     values : ndarray, shape (n or more,)
-        y, NaN where it is not known; the first realisations of those of ``controls``.
+        y, NaN where it is not known: the first realisations are those of ``controls``, others are not used.
     controls : ndarray, shape (N, p)
         x of each realisation, finite, one column a statistic.
 
     Returns
     -------
     Linearised
-        Of N realisations; the plain mean where fewer than 3 (p + 1) have y.
+        Of all realisations; the plain mean where fewer than 3 (p + 1) of the N have y.
 
     Notes
     -----
@@ -380,12 +380,13 @@ def regression_mean(values: FloatArray, controls: FloatArray) -> Linearised:
     '3.000 +- 0.082'
     """
     total, statistics = controls.shape
-    known = np.full(total, np.nan)
-    known[: len(values)] = values
-    used = np.isfinite(known)
-    y, x = known[used], controls[used]
+    places = max(len(values), total)
+    y_of, used = np.full(places, np.nan), np.zeros(places, dtype=np.bool_)
+    y_of[: len(values)] = values
+    used[:total] = np.isfinite(y_of[:total])
+    y, x = y_of[used], controls[used[:total]]
     if y.size < COEFFICIENT * (statistics + 1):
-        return moments(known, used).mean
+        return moments(y_of, np.isfinite(y_of)).mean
     centred, all_centred = x - x.mean(axis=0), controls - controls.mean(axis=0)
     inverse = np.linalg.pinv(centred)
     slope = inverse @ (y - y.mean())
@@ -394,7 +395,8 @@ def regression_mean(values: FloatArray, controls: FloatArray) -> Linearised:
     away = controls.mean(axis=0) - x.mean(axis=0)
     spread = 1 / y.size + float(((away @ inverse) ** 2).sum())
     # residuals are at right angles to x, so that the squares of both parts add up
-    influence = all_centred @ slope / math.sqrt(total * (total - 1))
+    influence = np.zeros(places)
+    influence[:total] = all_centred @ slope / math.sqrt(total * (total - 1))
     influence[used] += residuals * math.sqrt(spread / freedom)
     return Linearised(float(y.mean() + away @ slope), influence)
 
