@@ -199,9 +199,9 @@ def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
     assert [n.value for n in numbers(evidence, MEAN)] == pytest.approx([-20 * 2 * np.log10(1.05)] * 2, abs=1e-3)
     solver = 20 / math.log(10) * 3 * STIFFNESS_ERROR
     for found, name, grid in (
-        (evidence, MEAN, left + solver),
+        (evidence, MEAN, math.hypot(left, solver)),
         (evidence, DEVIATION, 6 * solver),
-        (synthetic(fine=1.05), MEAN, 20 * 2 * np.log10(1.05) + solver),
+        (synthetic(fine=1.05), MEAN, math.hypot(20 * 2 * np.log10(1.05), solver)),
     ):
         assert [n.grid for n in numbers(found, name)] == pytest.approx([grid] * 2, abs=2e-5)
 

@@ -269,8 +269,8 @@ class Resolved:
         return Resolved(self.value.minus_independent(other.value), self.grid + other.grid)
 
     def widened(self, left: float) -> "Resolved":
-        """With what else the discretisation leaves open."""
-        return Resolved(self.value, self.grid + left)
+        """With an independent error beside that of the grids, in quadrature."""
+        return Resolved(self.value, math.hypot(self.grid, left))
 
 
 def on_no_size(grids: Sequence[Linearised]) -> Resolved:

@@ -228,8 +228,8 @@ class Deviations:
         inverse = np.linalg.inv(covariance + LITTLE * np.trace(covariance) * np.eye(len(waves)))
         weights = np.linalg.solve(line.T @ inverse @ line, line.T @ inverse)[1]
         solver = [left_by_solver(deviation.value) for deviation in self.by_band(BEM, hurst, level).values()]
-        grid = float(np.abs(left @ weights).sum() + np.abs(weights) @ solver)
-        return Resolved(weighted_sum(weights, list(ratio.values())), grid)
+        slope = Resolved(weighted_sum(weights, list(ratio.values())), float(np.abs(left @ weights).sum()))
+        return slope.widened(float(np.abs(weights) @ solver))
 
     def without_coupling(self, hurst: float, level: int) -> dict[int, Linearised]:
         """Springs along a line over springs over an area, whose contact is k / E* wide, k that of boundary elements.

@@ -145,8 +145,8 @@ def left_by_solver(log_deviation: float = math.inf) -> float:
 
 
 def with_solver(finer: Estimate | float) -> Estimate | float:
-    """A change to half as long cells, larger by what the solver leaves of a mean on cells of no size; a float, of
-    springs or theory, as it is."""
+    """A change to half as long cells, with what the solver leaves of a mean on cells of no size in quadrature; a float,
+    of springs or theory, as it is."""
     if not isinstance(finer, Estimate):
         return finer
-    return replace(finer, value=finer.value + math.copysign(left_by_solver(), finer.value))
+    return replace(finer, value=math.hypot(finer.value, left_by_solver()))
