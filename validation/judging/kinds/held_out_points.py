@@ -18,6 +18,7 @@ import mdr
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, extrapolated
+from validation.cases.punch.ensembles import left_by_solver
 from validation.engine.engine import Engine, Outcome
 from validation.engine.realisations import NotConvergedError, random_generator
 from validation.judging.judgement import LEVEL as DECIBELS
@@ -243,7 +244,7 @@ def pressed(engine: Engine) -> Iterator[Reference]:
         for force, pair in zip(LOADS, zip(mean, finer, strict=True), strict=True):
             value, left = extrapolated(*pair)
             where = {H: punch.hurst, FIRST: float(punch.first), BAND: float(punch.ratio), FORCE: force}
-            yield Reference(where, math.exp(value.value), value.half_width, left)
+            yield Reference(where, math.exp(value.value), value.half_width, math.hypot(left, left_by_solver()))
 
 
 OF_PUNCHES: dict[str, Any] = {
