@@ -34,7 +34,7 @@ from validation.theory.half_space import EllipticContact
 
 OFFSET = "over ISO 3095 [dB]"
 """Of the levels of a rail over the limit curve."""
-TABLE, HEADER = Path(__file__).with_name("cnossos_a3_2021.csv"), 3
+TABLE, HEADER = Path(__file__).parents[1] / "tables" / "cnossos_a3_2021.csv", 3
 T = TypeVar("T", bound=np.generic)
 STEEL = 210e9 / (2 * (1 - 0.3**2))
 """E* of steel on steel [Pa]."""

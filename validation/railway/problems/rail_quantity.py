@@ -4,6 +4,7 @@ A3 = 10 lg of the band power of the equivalent displacement over that of the lin
 line decides it: where the scene leaves that out, ridges and isotropic ground are both ends of the answer.
 """
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import NominalBands
 from validation.engine.engine import FloatArray
 from validation.railway.problems.equivalent_displacement import transfer_of
+from validation.railway.problems.rail_power import RailPower, asks_for_power
 from validation.railway.problems.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
 from validation.railway.scenes.level_files import MICROMETRE
 from validation.railway.scenes.rail import CONTACT_FILTER, COUNTED, RailScene
@@ -84,6 +86,8 @@ class RailQuantity:
         """Why no model has one: no wave of the contact's length, or no band that counts; empty where one may have."""
         if self.scene.levels.fault:
             return f"the roughness is not known: {self.scene.levels.fault}"
+        if reason := self.scene.no_answer(self.name):
+            return reason
         try:
             _ = self.lost
         except ValueError as reason:
@@ -164,11 +168,31 @@ class RailQuantity:
         return lost_contact_number(self.scene)
 
     def counted(self, a3: FloatArray) -> NDArray[np.bool_]:
-        """Bands in which the tolerance counts."""
-        return a3 > COUNTED
+        """Bands in which the tolerance counts; of sound power all, by their share in the sum."""
+        return np.isfinite(a3) if asks_for_power(self.name) else a3 > COUNTED
+
+    def largest_error(self, a3: FloatArray, error: FloatArray) -> float:
+        """The largest of the errors of A3 in bands that count, or what they leave of the sum of sound power [dB].
+
+        Infinite where no band counts.
+        """
+        if asks_for_power(self.name):
+            return RailPower(self.scene, a3).error_of_total(error)
+        counted = error[self.counted(a3)]
+        return float(counted.max()) if counted.size else math.inf
+
+    def worst_band(self, a3: FloatArray, error: FloatArray) -> int:
+        """Where the error is largest, of sound power by the share of the band in the sum."""
+        if asks_for_power(self.name):
+            known = np.where(np.isfinite(error), error, 0.0)
+            return int(np.argmax(RailPower(self.scene, a3).shares * known))
+        return int(np.argmax(np.where(self.counted(a3), error, -1.0)))
 
     def amplitude(self, a3: FloatArray) -> FloatArray:
-        """Of A3 in dB: the ratio of amplitudes, or the root mean square of the equivalent roughness [m]."""
+        """Of A3 in dB: the ratio of amplitudes, the root mean square of the equivalent roughness [m], or the root of
+        the sound power over 1 pW in bands of frequency [-]."""
+        if asks_for_power(self.name):
+            return RailPower(self.scene, a3).amplitude
         if self.name == str(CONTACT_FILTER):
             return np.asarray(10 ** (a3 / 20))
         return np.asarray(MICROMETRE * 10 ** ((a3 + self.scene.levels.levels) / 20))
