@@ -42,6 +42,10 @@ NOMINAL = [50, 63, 80, 100, 125, 160, 200, 250, 315, 400, 500, 630, 800, 1000, 1
 NOMINAL += [5000, 6300, 8000, 10000]
 
 
+AT_80, AT_250 = (80, "M/S", 840, 1), (250, "W", 1200, 4)
+"""km/h, track, wheel and axles."""
+
+
 def by_hand(scene, a3):
     """L_W in each band, sums written out; the tables from the file, by their columns."""
     with (FOLDER / "railway" / "tables" / "cnossos_g3_2021.csv").open(encoding="utf-8") as file:
@@ -68,7 +72,7 @@ def of_transfer(transfer):
     return 10 * np.log10(transfer.of_track + transfer.of_wheel)
 
 
-@catches("tables whose columns are shifted by one").at(
+@catches("tables whose columns are shifted by one", 50, TABLE[50]).at(
     "validation.railway.theory.sound_power.SoundTransfer.of_track",
     property(lambda transfer: SoundTransfer("M/M", transfer.wheel).of_wheel),
 )
@@ -81,23 +85,23 @@ def test_transfer_functions_are_those_of_the_directive(frequency, row):
     assert SoundTransfer("W", 840).of_track[band] == pytest.approx(row[2])
 
 
-@catches("an A-weighting of the wrong sign").at(
+@catches("an A-weighting of the wrong sign", *AT_80).at(
     "validation.railway.theory.sound_power.a_weighting", lambda f: -rail_columns.a_weighting(f)
 )
-@catches("energies of track and wheel added as decibels").at(
+@catches("energies of track and wheel added as decibels", *AT_80).at(
     "validation.railway.theory.sound_power.SoundTransfer.of_both", property(of_transfer)
 )
-@catches("axles counted on the wheels alone").at(
+@catches("axles counted on the wheels alone", *AT_250).at(
     "validation.railway.theory.sound_power.SoundTransfer.of_track",
     property(lambda transfer: sound_power._columns()[transfer.track]),
 )
-@catches("levels interpolated in place of energies").at(
+@catches("levels interpolated in place of energies", *AT_80).at(
     "validation.railway.problems.rail_power.in_frequency",
     lambda levels, waves, speed: np.interp(
         np.log(speed / sound_power.frequencies()), np.log(waves[::-1]), np.asarray(levels)[::-1]
     ),
 )
-@pytest.mark.parametrize(("speed", "track", "wheel", "axles"), [(80, "M/S", 840, 1), (250, "W", 1200, 4)])
+@pytest.mark.parametrize(("speed", "track", "wheel", "axles"), [AT_80, AT_250])
 def test_sound_power_is_a_sum_by_hand_over_the_tables(speed, track, wheel, axles):
     """Of a filter that falls by a third of a decibel a band, so that neighbours are no line; to rounding."""
     scene = replace(RAIL, speed=speed / 3.6, track=track, transfer=wheel, axles=axles)

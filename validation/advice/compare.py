@@ -196,7 +196,8 @@ class Comparison:
         Of sound power it is L_eq less L_r, both brought to bands of frequency.
         """
         roughness, over = self.scene.added_to_filter(self.quantity)
-        return kept(self.value_of(candidate) - (roughness + over))
+        value = self.value_of(candidate)
+        return kept(value - (roughness + over)) if roughness.size else value
 
     def seconds_of(self, candidate: Candidate) -> float:
         """Seconds that a model took; NaN where it was not solved, or not all models were asked."""
