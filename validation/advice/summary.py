@@ -107,7 +107,7 @@ def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> st
 
 
 def findings(comparisons: Sequence[Comparison], lines_of: Callable[[Sequence[Comparison]], Iterator[str]]) -> str:
-    """Text of quantities with the same solves; of a rail those in the same bands have one table. lines_of: `in_full`."""
+    """Text of quantities with the same solves; of a rail those in the same bands share a table. lines_of: `in_full`."""
     parts = dict[tuple[float, ...], list[Comparison]]()
     for number, comparison in enumerate(comparisons):
         parts.setdefault(tuple(comparison.roughness.tolist()) or (number,), []).append(comparison)
