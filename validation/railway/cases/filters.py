@@ -19,6 +19,7 @@ from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.railway.problems.equivalent_displacement import geike_power, transfer_of
 from validation.railway.problems.rail_strip import (
+    OneAcross,
     StatedAcross,
     Transfer,
     line_of,
@@ -44,10 +45,10 @@ BED_WIDER, WIDER = "spring bed wider by 2/√3", 2 / math.sqrt(3)
 LINES_APART, LINES_NEAR = "mean of lines 5 mm apart", "mean of lines 0.71 a_y apart"
 APART, NEAR = 0.005, 1 / math.sqrt(2)
 """Of three lines: m as they are measured; over a_y, where they have the mean square distance a_y^2 / 3 of the punch."""
-ACROSS: dict[str, StatedAcross] = {"ridges": "ridges", "isotropic ground": "isotropic"}
+ACROSS: dict[str, OneAcross] = {"ridges": "ridges", "isotropic ground": "isotropic"}
 """Both ends of what may lie across."""
 ALPHAS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
-GROUNDS: dict[str, StatedAcross] = {
+GROUNDS: dict[str, OneAcross] = {
     "ridges": "ridges",
     **{f"alpha = {alpha:g}": alpha for alpha in ALPHAS},
     "isotropic ground": "isotropic",

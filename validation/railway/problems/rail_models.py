@@ -225,13 +225,15 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     if not quantity.counted(a3).any():
         return quantity.none_counts
     at = quantity.worst_band(a3, error)
+    measured = quantity.scene.measured_structure is not None
     spread = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
     off, smoothing = abs(a3[at] - quantity.linear.mean(axis=0)[at]), quantity.smoothing_error[at]
     is_open, of_strips = quantity.scene.lateral_structure is None, strip_bands(quantity.scene).span
     faults = quantity.left_by_faults[at]
     causes = {
         f"outliers of the measured lines leave ± {faults:.2g} dB": faults > 0,
-        f"lateral_structure is not given, {spread}": is_open,
+        f"lateral_structure is not given, {spread}": is_open and not measured,
+        f"the lateral structure by the lines leaves ± {quantity.half_width[at]:.2g} dB": measured,
         f"no isotropic ground has this level, {spread}": quantity.stands_out[at] and not is_open,
         f"levels that scatter leave ± {smoothing:.2g} dB of isotropic ground": smoothing > 0,
         f"{off:.2g} dB off {LINEAR}, on this ground": off > LINEAR_ERROR,
@@ -308,6 +310,8 @@ def what_would_state_the_ground(target: Target) -> str:
         return "a measurement without the outliers that the notes name, or a part of it that has none"
     if isinstance(scene.roughness, MeasuredHeights):
         return "a filter of this surface, by its own heights: of its lines both ends of what lies across are open"
+    if scene.measured_structure is not None:
+        return f"more or longer lines, or lines closer together for short waves; or {stated}"
     if scene.lateral_structure is None:
         return f'to tell what lies across the rail, as lateral_structure = "isotropic" or {stated.partition(" = ")[2]}'
     table = "rail.lines" if isinstance(scene.roughness, MeasuredLines) else "rail.levels"

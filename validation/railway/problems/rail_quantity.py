@@ -5,6 +5,7 @@ line decides it: where the scene leaves that out, ridges and isotropic ground ar
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,13 +16,23 @@ from validation.analysis.spectra import NominalBands
 from validation.engine.engine import FloatArray
 from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_power import RailPower, asks_for_power
-from validation.railway.problems.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
+from validation.railway.problems.rail_strip import (
+    LateralBands,
+    OneAcross,
+    StatedAcross,
+    line_of,
+    lost_contact_number,
+    structure_of,
+)
 from validation.railway.scenes.level_files import MICROMETRE
 from validation.railway.scenes.rail import CONTACT_FILTER, COUNTED, RailScene
+from validation.railway.theory.line_coherence import LARGEST, LateralEstimate
 from validation.railway.theory.transverse_structure import Filter, IsotropicGround, LineSpectrum, TransverseStructure
 from validation.simulation.model_names import LINEAR
 
 RAIL_QUANTITIES = tuple(map(str, RailScene.quantities))
+GRID = np.geomspace(0.05, LARGEST, 24)
+"""alpha at which filters are compared, between the ends of what was measured."""
 TILT = 0.3
 """Of the exponent of a line, over which A3 changes in proportion."""
 OF_SMOOTHING = 3.0
@@ -46,12 +57,38 @@ class RailQuantity:
         own = self.scene.levels.bands
         return own if self.longest is None else NominalBands(self.longest, own.shortest)
 
-    @property
+    @cached_property
     def ends(self) -> tuple[StatedAcross, ...]:
-        """What lies across, or both ends of what may: also where levels stand out of the isotropic ground stated."""
+        """What lies across, or both ends of what may: also where levels stand out of the isotropic ground stated.
+
+        Of parallel lines the ends are those of the measured structure, band by band, the quieter filter last.
+        """
+        if self.scene.measured_structure is not None:
+            return self._measured_ends(self.scene.measured_structure)
         if self.scene.lateral_structure is None or self.stands_out.any():
             return "ridges", "isotropic"
         return (self.scene.lateral_structure,)
+
+    def _measured_ends(self, estimates: Sequence[LateralEstimate]) -> tuple[LateralBands, LateralBands]:
+        """Of what may lie across in each band, with the loudest and with the quietest filter of linear theory."""
+        # longer waves have the structure of the longest that was measured
+        longer = len(self.bands) - len(estimates)
+        estimates = [estimates[0]] * longer + list(estimates)
+        alphas, transfer = GRID.tolist(), transfer_of(LINEAR, self.scene.contact)
+        own = [self._of_ground(structure_of(alpha, self.line), self.line, transfer) for alpha in alphas]
+        of_grid = np.array([self._of_ground(structure_of("ridges", self.line), self.line, transfer), *own])
+        isotropic = self._of_ground(structure_of("isotropic", self.line), self.line, transfer)
+        grid, chosen = np.array([0.0, *alphas]), list[tuple[OneAcross, OneAcross]]()
+        for i, estimate in enumerate(estimates):
+            between = grid[(grid > estimate.low) & (grid < estimate.high)]
+            may_be: list[OneAcross] = [_named(alpha) for alpha in (estimate.low, *between.tolist(), estimate.high)]
+            a3 = np.interp([estimate.low, *between, estimate.high], grid, of_grid[:, i]).tolist()
+            if estimate.isotropic:
+                may_be, a3 = [*may_be, "isotropic"], [*a3, isotropic[i]]
+            chosen.append((may_be[int(np.argmax(a3))], may_be[int(np.argmin(a3))]))
+        edges = tuple(self.bands.edges.tolist())
+        loud, quiet = zip(*chosen, strict=True)
+        return LateralBands(edges, loud), LateralBands(edges, quiet)
 
     @property
     def stands_out(self) -> NDArray[np.bool_]:
@@ -151,11 +188,19 @@ class RailQuantity:
         isotropic = self.scene.isotropic
         if isotropic is None or isotropic.as_it_is:
             return np.zeros(len(self.bands))
+        if not self.may_be_isotropic.any():
+            return np.zeros(len(self.bands))
         lines = self.line, self.line.steeper(TILT), isotropic.smoother
         transfer = transfer_of(LINEAR, self.scene.contact)
         own, tilted, smoother = (self._of_ground(IsotropicGround(line), line, transfer) for line in lines)
         error = np.abs(tilted - own) / TILT * isotropic.slope_error + OF_SMOOTHING * np.abs(smoother - own)
-        return np.asarray(error)
+        return np.asarray(np.where(self.may_be_isotropic, error, 0.0))
+
+    @property
+    def may_be_isotropic(self) -> NDArray[np.bool_]:
+        """Bands in which an end of what may lie across is isotropic ground."""
+        of_ends = [end.across if isinstance(end, LateralBands) else (end,) * len(self.bands) for end in self.ends]
+        return np.asarray(np.any([[own == "isotropic" for own in end] for end in of_ends], axis=0))
 
     @cached_property
     def wave(self) -> FloatArray:
@@ -196,3 +241,8 @@ class RailQuantity:
         if self.name == str(CONTACT_FILTER):
             return np.asarray(10 ** (a3 / 20))
         return np.asarray(MICROMETRE * 10 ** ((a3 + self.scene.levels.levels) / 20))
+
+
+def _named(alpha: float) -> OneAcross:
+    """All lines alike by their name."""
+    return alpha or "ridges"

@@ -16,6 +16,7 @@ from validation.railway.scenes.isotropic_line import IsotropicLine, isotropic_li
 from validation.railway.scenes.level_files import MICROMETRE, RoughnessLevels
 from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.transverse_profile import TransverseProfile, fitted_radius
+from validation.railway.theory.line_coherence import LateralEstimate, ParallelLines, in_words
 from validation.railway.theory.sound_power import (
     DEFAULT_TRACK,
     MOST_AXLES,
@@ -26,6 +27,7 @@ from validation.railway.theory.sound_power import (
     tracks,
     wheels,
 )
+from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured_heights import MeasuredHeights, check_covers
@@ -88,8 +90,9 @@ class RailScene(SceneDefaults):
     material : Material or None, optional
         What E* is made of, None where only ``modulus`` is known.
     lateral_structure : "ridges", "isotropic", float or None, optional
-        Lateral structure of the roughness: ridges, isotropic ground, or waves with abs(k_y) < alpha k_x. None: ridges
-        and isotropic ground, as both ends.
+        Lateral structure of the roughness: ridges, isotropic ground, or waves with abs(k_y) < alpha k_x. None: that
+        of the coherence of parallel lines, with its interval in each band; of anything else ridges and isotropic
+        ground, as both ends.
     notes : tuple of str, optional
         What was assumed where the scene was made, in sentences.
     damping : float, optional
@@ -209,6 +212,22 @@ class RailScene(SceneDefaults):
         """From the equivalent roughness to sound power, with what stands for keys that are left out."""
         wheel = nearest_wheel(2 * self.radius) if self.transfer is None else int(self.transfer)
         return SoundTransfer(self.track or DEFAULT_TRACK, wheel, self.axles or 1)
+
+    @property
+    def parallel_lines(self) -> ParallelLines | None:
+        """Of several measured lines, where no other lateral structure is stated."""
+        lines = self.roughness
+        if self.lateral_structure is not None or not isinstance(lines, MeasuredLines) or len(lines.positions) < 2:
+            return None
+        return ParallelLines(lines.height, lines.spacing, lines.positions)
+
+    @cached_property
+    def measured_structure(self) -> tuple[LateralEstimate, ...] | None:
+        """Lateral structure in each band by the coherence of parallel lines; None without such lines."""
+        lines, isotropic = self.parallel_lines, self.isotropic
+        if lines is None or isotropic is None or self.levels.fault:
+            return None
+        return lines.estimates(self.levels.bands, IsotropicGround(isotropic.line))
 
     def frequency(self, wavelength: float) -> float:
         """f = v / lambda [Hz], NaN without a speed."""
@@ -330,6 +349,9 @@ class RailScene(SceneDefaults):
             "isotropic": "isotropic ground",
             "ridges": "ridges",
         }
+        if self.measured_structure is not None and self.parallel_lines is not None:
+            count = len(self.parallel_lines.positions)
+            return f"by the coherence of {count} lines: {in_words(self.measured_structure, self.levels.bands)}"
         if self.lateral_structure is None or isinstance(self.lateral_structure, str):
             return words[self.lateral_structure]
         angle = math.degrees(math.atan(self.lateral_structure))
@@ -365,6 +387,12 @@ class RailScene(SceneDefaults):
             yield (
                 f"roughness is known in bands of {bands.span}: the others of {NominalBands().span} are missing, and "
                 "have no answer."
+            )
+        if (lines := self.parallel_lines) is not None and lines.shifts.any():
+            shown = ", ".join(f"{1e3 * shift:g}" for shift in lines.shifts)
+            yield (
+                f"lines are shifted along the track by about {shown} mm relative to the first: their coherence has "
+                "no lateral structure; cut them so that they begin at one place."
             )
         yield from self._scatter()
         if isinstance(self.roughness, MeasuredHeights):

@@ -19,11 +19,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 import scipy.signal
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from validation.analysis.spectra import NominalBands
 from validation.railway.theory.transverse_structure import IsotropicGround, Ridges, TransverseStructure, WaveBand
@@ -43,6 +44,9 @@ NODES = 16
 """Wavenumbers of a band at which coherence is computed, at the most."""
 FEWEST = 3.0
 """Independent waves of a band, at the least."""
+FARTHEST_SHIFT, CLEAR = 0.1, 5.0
+"""Shift of a line along the track that is looked for [m]; by how many standard deviations of noise its correlation is
+larger than without it."""
 FIRST_ZERO = math.pi
 """alpha k s of the first zero of the coherence: of larger ones it tells nothing."""
 
@@ -117,11 +121,34 @@ class ParallelLines:
         taper = scipy.signal.windows.tukey(len(steps), TAPERED)
         waves = np.fft.rfft(taper[:, np.newaxis] * steps, axis=0)
         independent = np.sum(taper**2) ** 2 / (len(steps) * np.sum(taper**4))
-        return 2 * math.pi * np.fft.rfftfreq(len(steps), self.spacing), waves, float(independent)
+        q = np.asarray(2 * math.pi * np.fft.rfftfreq(len(steps), self.spacing), dtype=np.float64)
+        return q, waves, float(independent)
+
+    @cached_property
+    def shifts(self) -> FloatArray:
+        """By how much each line is ahead of the first along the track, zero where that is not clear [m].
+
+        Where the correlation of the differences is largest within 0.1 m, and clearly larger than at zero.
+        """
+        _, waves, _ = self._spectra
+        powers = np.sqrt(np.sum(np.abs(waves) ** 2, axis=0))
+        correlation = np.fft.irfft(waves[:, :1].conj() * waves, len(self.heights) - 1, axis=0)
+        correlation = correlation * (len(self.heights) - 1) / (2 * powers[0] * powers)
+        reach = min(math.floor(FARTHEST_SHIFT / self.spacing), (len(self.heights) - 2) // 2)
+        lags = np.arange(-reach, reach + 1)
+        best = lags[np.argmax(correlation[lags], axis=0)]
+        over = correlation[best, np.arange(best.size)] - correlation[0]
+        clear = over > CLEAR / math.sqrt(len(self.heights))
+        return np.asarray(np.where(clear, best * self.spacing, 0.0))
 
     def estimates(self, bands: NominalBands, isotropic: IsotropicGround | None) -> tuple[LateralEstimate, ...]:
-        """One a band. isotropic: the ground that the lines may be of; None where none has their spectrum."""
-        return tuple(self._estimate(first, last, isotropic) for first, last in zip(bands.edges, bands.edges[1:]))
+        """One a band; nothing is known of lines that are shifted along the track.
+
+        isotropic: the ground that the lines may be of; None where none has their spectrum.
+        """
+        if self.shifts.any():
+            return (UNKNOWN,) * len(bands)
+        return tuple(self._estimate(first, last, isotropic) for first, last in pairwise(bands.edges.tolist()))
 
     def _estimate(self, first: float, last: float, isotropic: IsotropicGround | None) -> LateralEstimate:
         all_q, all_waves, independent = self._spectra
@@ -225,17 +252,18 @@ def _where_below(q: FloatArray, limit: float) -> tuple[float, float]:
 
 
 def in_words(estimates: Sequence[LateralEstimate], bands: NominalBands) -> str:
-    """Ranges of bands of one kind, with the interval of alpha over them, in one clause each."""
-    kinds: dict[Kind, list[LateralEstimate]] = {}
-    masks: dict[Kind, ArrayLike] = {}
-    for estimate in estimates:
-        kinds.setdefault(estimate.kind, []).append(estimate)
-    for kind in kinds:
-        masks[kind] = np.array([estimate.kind == kind for estimate in estimates])
-    words = {
-        "between": lambda those: f"alpha = {min(e.low for e in those):.2g} to {max(e.high for e in those):.2g}",
-        "at most": lambda those: f"at most {max(e.high for e in those):.2g}",
-        "at least": lambda those: f"at least {min(e.low for e in those):.2g} or isotropic",
-        "not determined": lambda those: "not determined",
-    }
-    return "; ".join(f"{words[kind](those)} at {bands.names(masks[kind])}" for kind, those in kinds.items())
+    """Ranges of bands of one kind, a clause each: the median of alpha, and the ends of all of their intervals."""
+    clauses = []
+    for kind in dict.fromkeys(estimate.kind for estimate in estimates):
+        of_kind = [estimate for estimate in estimates if estimate.kind == kind]
+        low, high = min(estimate.low for estimate in of_kind), max(estimate.high for estimate in of_kind)
+        middle = float(np.median([estimate.alpha for estimate in of_kind]))
+        alpha = {
+            "between": f"alpha = {middle:.2g} ({low:.2g} to {high:.2g})",
+            "at most": f"alpha at most {high:.2g}",
+            "at least": f"alpha at least {low:.2g}",
+            "not determined": "not determined",
+        }[kind]
+        clauses.append(f"{alpha} at {bands.names([estimate.kind == kind for estimate in estimates])}")
+    may_be = [estimate.isotropic and estimate.kind != "not determined" for estimate in estimates]
+    return "; ".join([*clauses, *([f"isotropic ground is possible at {bands.names(may_be)}"] if any(may_be) else [])])

@@ -344,9 +344,9 @@ class BandedStructure(TransverseStructure):
     def waves_across(self, q: ArrayLike, *, semi_axis: float) -> int:
         along = np.asarray(q, dtype=np.float64)
         numbers = self._numbers(along)
-        return max(
-            self.structures[n].waves_across(along[numbers == n], semi_axis=semi_axis) for n in np.unique(numbers)
-        )
+        each = [(self.structures[n], along[numbers == n]) for n in np.unique(numbers).tolist()]
+        counts: list[int] = [own.waves_across(of_own, semi_axis=semi_axis) for own, of_own in each]
+        return max(counts)
 
     def coherence(self, q: ArrayLike, separation: float) -> FloatArray:
         return self._in_each(q, lambda own, along: own.coherence(along, separation))
