@@ -136,8 +136,8 @@ REAL_BAND = line_coherence.BandOfLines.of_waves
     "validation.railway.theory.line_coherence.BandOfLines.of_waves", staticmethod(independent_waves)
 )
 @catches("the coherence of lines half as far apart").at(
-    "validation.railway.theory.line_coherence.ParallelLines.separations",
-    property(lambda lines: np.unique(lines.apart[np.triu_indices(3, 1)]) / 2),
+    "validation.railway.theory.line_coherence.ParallelLines.apart",
+    property(lambda lines: np.abs(np.subtract.outer(lines.positions, lines.positions)).round(9) / 2),
 )
 @pytest.mark.slow
 def test_the_filter_of_drawn_surfaces_is_in_its_interval():
