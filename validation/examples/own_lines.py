@@ -1,4 +1,4 @@
-"""A rail of one's own by its heights: three measured lines, and the force by another contact filter."""
+"""A rail of one's own by its heights: three measured lines, and the sound power by another contact filter."""
 
 import json
 from pathlib import Path
