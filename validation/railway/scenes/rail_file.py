@@ -146,7 +146,7 @@ def _combined(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
     levels, more = (each.levels if isinstance(each, MeasuredLines) else each for each in (rail, wheel))
     missing = [f"{1000 * w:g}" for w in levels.bands.nominal if w not in more.bands.nominal]
     note = f"the roughness of the wheel is not known at {', '.join(missing)} mm: that of the rail stands alone there."
-    notes = (note,) if missing else ()
+    notes: tuple[str, ...] = (note,) if missing else ()
     if isinstance(rail, MeasuredLines) and len(rail.positions) > 1:
         notes += (
             "the lateral structure of rail and wheel together is not measured by the lines of the rail: "
