@@ -12,7 +12,7 @@ import numpy as np
 
 from validation.advice.tolerance import NAMES, Columns
 from validation.analysis.number_text import NONE, half_width_text, signed
-from validation.analysis.sound import energy_sum
+from validation.analysis.spectra import energy_sum
 from validation.engine.engine import FloatArray
 
 LEVELS = "L_r: roughness, A3: contact filter, L_eq = L_r + A3: equivalent roughness [dB re 1 µm]"

@@ -13,7 +13,7 @@ from validation.advice import advice as on_mdr
 from validation.advice.advice import is_solved, springs_of, what_would_help, would_help
 from validation.advice.compare import Comparison, OneOrSeveral, listed
 from validation.advice.hierarchy import Candidate, Status
-from validation.advice.quantities import quantity_of
+from validation.advice.models_of_scene import quantity_of
 from validation.advice.scene_model import Answer
 from validation.advice.sound_power import LEVELS
 from validation.advice.table import (

@@ -13,8 +13,7 @@ from validation.advice.hierarchy import Candidate
 from validation.advice.sound_power import ContactForce, SoundPower
 from validation.advice.tolerance import decibels, relative
 from validation.analysis.evidence import Table
-from validation.analysis.sound import a_weighting
-from validation.analysis.spectra import LONGEST, NominalBands
+from validation.analysis.spectra import LONGEST, NominalBands, a_weighting
 from validation.engine.engine import FloatArray
 from validation.railway.problems.rail_models import RailModel, rail_quantity
 from validation.railway.problems.rail_power import RailPower

@@ -21,7 +21,7 @@ from validation.scenes.wheel_body import DampedWheel, Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
 from validation.simulation.model_names import BEM, LINE, LINEAR
 from validation.simulation.motion import simulate_from_linear_motion
-from validation.theory.wheel import dynamic_stiffness
+from validation.theory.rolling import dynamic_stiffness
 
 DEEPER = 6.0
 """Largest approach of the springs in motion, over that of the smooth wheel."""

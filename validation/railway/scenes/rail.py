@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from mdr.checks import count, positive
+from validation.analysis.escapes import quoted, shortened
 from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.engine.former_names import renamed_field
@@ -31,7 +32,6 @@ from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured_heights import MeasuredHeights, check_covers
-from validation.scenes.printable import quoted, shortened
 from validation.scenes.reader import errors_of
 from validation.scenes.scene import ENSEMBLE_MEAN, LATER, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit

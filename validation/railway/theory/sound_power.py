@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import count, positive
-from validation.analysis.sound import a_weighting, energy_sum
+from validation.analysis.spectra import a_weighting, energy_sum
 
 FloatArray = NDArray[np.float64]
 
