@@ -267,7 +267,7 @@ def test_keys_of_track_wheel_and_axles_are_read():
     (shown,) = (text for name, text in scene.describe() if name == "sound power")
     assert shown == "track B/S (bi-block sleepers, soft pads), wheel of 1200 mm, 4 axles"
     (assumed,) = (text for name, text in scene_with().describe() if name == "sound power")
-    assert assumed.endswith("wheel of 920 mm, per axle; rail.track and wheel.transfer left out")
+    assert assumed.endswith("wheel of 920 mm, per axle; wheel.transfer left out")
 
 
 @pytest.mark.parametrize(
