@@ -97,8 +97,8 @@ STUDY = Study(
         "that is too heavy to follow; the force along the track is the signal in time. All models roll over the same "
         "surface. Springs of Geike's spectrum have no surface: their profile is the middle line of this one with each "
         "wave scaled to that spectrum, so that it keeps its phase. Boundary elements have {c.cells} cells to the "
-        "smaller semi-axis. A force has another weight than sound power: what a filter changes for the ear is in the case "
-        "across."
+        "smaller semi-axis. A force has another weight than sound power: what a filter changes for the ear is in the "
+        "case across."
     ),
     series=series,
     charts=(
