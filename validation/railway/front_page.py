@@ -66,7 +66,7 @@ def globals_of(sections: Sequence[Section]) -> dict[str, Any]:
 
 
 def rail_filters(sections: Sequence[Section]) -> Table | None:
-    """A row a filter: its worst band [dB] over some grounds, and what it makes of the rms force [dB(A)]."""
+    """A row a filter: its worst band [dB] over some grounds, and what it makes of the sound power [dB(A)]."""
     evidence = _evidence("across", sections)
     tables = {table.name: table for table in evidence.page_tables} if evidence else {}
     worst = next((table for name, table in tables.items() if name.startswith(OF_A3)), None)
@@ -81,7 +81,7 @@ def rail_filters(sections: Sequence[Section]) -> Table | None:
         {
             "filter": worst.columns["model"],
             **{f"{WORST} {name}": worst.columns[name] for name in grounds},
-            **{f"rms force over {name} [dB(A)]": [loud.columns[name][row] for row in rows] for name in grounds},
+            **{f"sound power, {name} [dB(A)]": [loud.columns[name][row] for row in rows] for name in grounds},
         },
     )
 
