@@ -74,7 +74,7 @@ def test_error_bars_of_fig_14_1_and_of_bands_have_the_error_of_the_solver():
     assert bands.slope(0.7, 2).grid == pytest.approx(2 * of_deviation, rel=0.05)
 
 
-@catches("the solver's error left out of interfaces").at("validation.cases.punch.ensembles.STIFFNESS_ERROR", 0.0)
+@catches("the solver's error left out of interfaces").at("validation.simulation.rough_punch.STIFFNESS_ERROR", 0.0)
 def test_error_bars_of_interfaces_have_the_error_of_the_solver():
     """On grids that agree exactly, and whichever way finer cells change."""
     (plain, *_), softer = (

@@ -33,6 +33,15 @@ of these, that this residual leaves at the most. It goes with the square of the 
 LOST = (np.nan,) * 4
 
 
+def left_by_solver(log_deviation: float = math.inf) -> float:
+    """Of a logarithm on cells of no size, by the residual of the fixed contact areas; of the mean, or of a deviation.
+
+    2 fine - coarse has three times the error of one grid, as if all went the same way. That of a standard deviation is
+    no more than the standard deviation of the errors (triangle inequality).
+    """
+    return 3 * STIFFNESS_ERROR * (1 + 1 / (2 * math.exp(log_deviation)))
+
+
 def force_levels(decades: tuple[int, int], per_decade: int) -> tuple[float, ...]:
     """Fbar from one power of ten to another, ascending, so many equal steps of its logarithm in each decade."""
     first, last = decades

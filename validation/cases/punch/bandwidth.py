@@ -21,7 +21,7 @@ from validation.analysis.statistics import (
     weighted_sum,
 )
 from validation.case import SERIAL, Engine, Outcomes
-from validation.cases.punch.ensembles import PunchEnsembles, left_by_solver, press
+from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import (
@@ -30,6 +30,7 @@ from validation.simulation.rough_punch import (
     RolledOffRoughness,
     Surface,
     force_levels,
+    left_by_solver,
     press_lightly,
 )
 from validation.simulation.spring_tracks import RoughAreas, press_areas

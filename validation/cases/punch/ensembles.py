@@ -15,12 +15,12 @@ from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statis
 from validation.case import Engine, Series
 from validation.engine.engine import Outcome
 from validation.simulation.rough_punch import (
-    STIFFNESS_ERROR,
     Profiles,
     PunchRoughness,
     Surface,
     describe_failures,
     force_levels,
+    left_by_solver,
     press_profiles,
     press_surface,
     stacked,
@@ -133,15 +133,6 @@ def change(statistic: Statistic, before: FloatArray, after: FloatArray) -> Estim
     count = min(len(before), len(after))
     pairs = np.stack([before[:count], after[:count]], axis=1)
     return Estimates(jackknifed(lambda rows: of_rows(statistic, rows[:, 1]) - of_rows(statistic, rows[:, 0]), pairs))
-
-
-def left_by_solver(log_deviation: float = math.inf) -> float:
-    """Of a logarithm on cells of no size, by the residual of the fixed contact areas; of the mean, or of a deviation.
-
-    2 fine - coarse has three times the error of one grid, as if all went the same way. That of a standard deviation is
-    no more than the standard deviation of the errors (triangle inequality).
-    """
-    return 3 * STIFFNESS_ERROR * (1 + 1 / (2 * math.exp(log_deviation)))
 
 
 def with_solver(finer: Estimate | float) -> Estimate | float:

@@ -24,16 +24,7 @@ from validation.analysis.statistics import (
     regression_mean,
 )
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.cases.punch.ensembles import (
-    DEVIATION,
-    FEW,
-    FORCE,
-    MEAN,
-    PunchEnsembles,
-    left_by_solver,
-    press,
-    worked,
-)
+from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press, worked
 from validation.engine.engine import Outcome
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
@@ -43,6 +34,7 @@ from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
     Surface,
+    left_by_solver,
     measure_faces,
     press_lightly,
     require_converged,

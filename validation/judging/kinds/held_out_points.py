@@ -18,7 +18,6 @@ import mdr
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, extrapolated
-from validation.cases.punch.ensembles import left_by_solver
 from validation.engine.engine import Engine, Outcome
 from validation.engine.realisations import NotConvergedError, random_generator
 from validation.judging.judgement import LEVEL as DECIBELS
@@ -30,7 +29,7 @@ from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Density, Q, W
 from validation.judging.kinds.stiffness import BAND, FIRST, FORCE, MEAN, H
 from validation.judging.registry import Caller, Failed
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
-from validation.simulation.rough_punch import PunchRoughness, Surface, press_lightly
+from validation.simulation.rough_punch import PunchRoughness, Surface, left_by_solver, press_lightly
 from validation.simulation.surface import draw_surface
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 
