@@ -109,7 +109,8 @@ def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
     plain, finer = (evidence(theory, finer=factor) for factor in (1.0, 1.05))
     one, two = (numbers_with(found.numbers, BESIDE_BEM, FITTED)[9] for found in (plain, finer))
     assert two.value - one.value == pytest.approx(-2 * 20 * np.log10(1.05), abs=1e-6)
-    assert two.grid - one.grid == pytest.approx(20 * np.log10(1.05), rel=1e-3)
+    # beside what the solver leaves, which is all that equal grids have
+    assert two.grid == pytest.approx(np.hypot(20 * np.log10(1.05), one.grid), rel=1e-3)
 
 
 SERIES = 1.1523, Verdict.WITHIN
@@ -236,7 +237,8 @@ def test_the_table_has_the_ranges_within_10_and_30_per_cent_of_all_grounds():
     table = next(table for table in tables if table.name == interface_study.RANGES)
     row = table.where(quantity="K", model=FITTED)
     assert [row[name][0] for name in row.columns][2:4] == ["0.3 to 20", "0.1 to 20"]
-    assert row["highest error"][0].startswith("+100") and row["highest error"][0].endswith("% at 0.03 %")
+    error, at = row["highest error"][0].split(" ± ")
+    assert float(error) == pytest.approx(100, rel=1e-3) and at.endswith("% at 0.03 %")
 
 
 def test_the_notes_say_direction_size_and_range():

@@ -9,7 +9,14 @@ from numpy.typing import ArrayLike
 import bem3d
 from validation.engine.engine import FloatArray, Outcome
 from validation.simulation.model_names import SPRINGS
-from validation.simulation.rough_punch import LOST, Profiles, PunchRoughness, Surface, press_profiles
+from validation.simulation.rough_punch import (
+    LOST,
+    STIFFNESS_TOLERANCE,
+    Profiles,
+    PunchRoughness,
+    Surface,
+    press_profiles,
+)
 from validation.theory.interface import full_contact_pressure
 
 
@@ -30,6 +37,7 @@ def press_interface(surface: Surface) -> Outcome:
         -height,
         forces=surface.roughness.height * np.array(surface.forces),
         stiffness=True,
+        stiffness_tolerance=STIFFNESS_TOLERANCE,
         tolerance=surface.tolerance,
         raise_on_failure=False,
     )

@@ -14,7 +14,7 @@ from validation.analysis.evidence import Place
 from validation.analysis.series import Estimates, Margin, Where, masked, single
 from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statistic, jackknifed, log_mean
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.cases.punch.ensembles import OVER, change, of_rows, press
+from validation.cases.punch.ensembles import OVER, change, of_rows, press, with_solver
 from validation.engine.engine import Outcome
 from validation.simulation.interface import MdrInterface, press_interface, without_flat_punch
 from validation.simulation.model_names import BEM
@@ -202,7 +202,7 @@ class Measured:
         """
         coarse, fine = (self._rows(on, *names or ("stiffness",)) for on in self)
         finer = change(statistic, coarse, fine)
-        return Estimates(jackknifed(partial(of_rows, statistic), coarse)).on_no_size(finer), finer
+        return Estimates(jackknifed(partial(of_rows, statistic), coarse)).extrapolate_to_zero(finer), finer
 
     def corrected(self, *names: str, statistic: Statistic = log_mean) -> tuple[Estimates, Left]:
         """As `of` with the corrected area of the finer grid, and what that leaves open: a part of the correction."""
@@ -287,7 +287,8 @@ def _of_interface(case: Interface, ground: Ground, measured: Measured, springs: 
     shown = partial(Series, where=_where(ground), along=CONTACT, at=case.per_cent, shown=math.exp)
     compared = _compared(measured, p, spectrum)
     for one in compared.values():
-        yield shown(one.quantity, BEM, one.values - Estimates.exact(np.log(one.unit)), grid=one.left)
+        left = [*map(with_solver, one.left)] if one.quantity == SCALED else one.left
+        yield shown(one.quantity, BEM, one.values - Estimates.exact(np.log(one.unit)), grid=left)
     yield from _kappa(case, ground, compared["area_fraction"])
     bound = Barber(float(measured.coarse["highest"].mean()), math.inf)
     yield shown(SCALED, bound.name, np.log(bound.stiffness(p) * spectrum.height / p))
@@ -368,7 +369,7 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
     shown = partial(Series, where=_where(ground), along=CONTACT, at=case.per_cent, shown=math.exp)
     (on_punch, finer), over = punch.of("stiffness"), Estimates.exact(np.log(forces))
     logs = Estimates(jackknifed(partial(of_rows, log_mean), springs["stiffness"]))
-    yield shown(SCALED_PUNCH, ON_PUNCH, on_punch - over, grid=finer)
+    yield shown(SCALED_PUNCH, ON_PUNCH, on_punch - over, grid=[*map(with_solver, finer)])
     yield shown(SCALED_PUNCH, MDR, logs - over)
     yield from _at_each_load(case, ground, STIFFNESS, OVER, logs - on_punch, finer)
     yield from _at_each_load(case, ground, EXPONENT, ON_PUNCH, *punch.of(statistic=slope), None)
@@ -379,7 +380,7 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
     coarse, fine = (np.stack([p["stiffness"], i["stiffness"]], axis=1) for p, i in zip(punch, interface, strict=True))
     both = np.stack([coarse[: len(fine)], fine], axis=1)
     finer = Estimates(jackknifed(lambda rows: _over_series(rows[:, 1]) - _over_series(rows[:, 0]), both))
-    ratios = Estimates(jackknifed(_over_series, coarse)).on_no_size(finer)
+    ratios = Estimates(jackknifed(_over_series, coarse)).extrapolate_to_zero(finer)
     yield from _at_each_load(case, ground, OF_SERIES, BEM, ratios, finer)
 
 
@@ -401,7 +402,9 @@ def _at_each_load(
     """A number at each load; of exponents for each step between light loads."""
     places: Sequence[Place] = [step for step in pairwise(case.per_cent) if step[1] <= 100 * LIGHT]
     places, unit = (places, ONE) if quantity == EXPONENT else (case.per_cent, DECIBELS)
-    for place, value, left in zip(places, values, finer, strict=False):
+    # the solver leaves a part of the stiffness, from which area and gap do not follow
+    lefts = finer if quantity in (AREA_OVER, GAP_OVER) else map(with_solver, finer)
+    for place, value, left in zip(places, values, lefts, strict=False):
         where: Where = {**_where(ground), CONTACT: place}
         family = len(places) * len(case.grounds)
         yield Series(quantity, model, (value,), where=where, grid=(left,), margin=margin, family=family, **unit)

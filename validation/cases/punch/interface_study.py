@@ -6,10 +6,10 @@ from functools import partial
 from itertools import groupby
 
 from validation.analysis.chart import Curve
-from validation.analysis.claim_text import NOT_THIS_CURVE, listed
+from validation.analysis.claim_text import NOT_THIS_CURVE
 from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Number, Table, Whose, numbers_with
-from validation.analysis.number_text import per_cent, with_reference
+from validation.analysis.number_text import enumeration, per_cent, with_reference
 from validation.analysis.series import numbers_of
 from validation.analysis.statistics import DECIBEL
 from validation.case import Case, Chapter, Chart, Claim, Outcomes, Panel, Study
@@ -119,7 +119,7 @@ def notes(result: Outcomes) -> list[str]:
     lightest = {"H": case.pressed[1], CONTACT: case.per_cent[0]}
     by_size = {n.where[ROLL_OFF]: per_cent(n) for n in numbers_with(numbers, BESIDE_BEM, FITTED, **lightest)}
     if len(by_size) >= MANY:
-        errors = listed([f"{by_size[size]} at {ROLL_OFF} = {size:g}" for size in sorted(by_size)])
+        errors = enumeration([f"{by_size[size]} at {ROLL_OFF} = {size:g}" for size in sorted(by_size)])
         load = f"{case.per_cent[0]:g} % {CONTACT.removesuffix(' [%]')}"
         said.append(f"At {load}, H = {case.pressed[1]:g}, the stiffness of Persson's theory is off by {errors}.")
     return [sentence for sentence in said if sentence]
@@ -161,7 +161,7 @@ SENTENCES = (
 )
 """Quantity, model and range of loads of each sentence of the notes."""
 of_interface = partial(
-    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.FIELD
+    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.LITERATURE
 )
 from_light = partial(of_interface, along=CONTACT, printed=per_cent)
 up_to_3 = partial(from_light, where={**of_interface.keywords["where"], CONTACT: lambda load: load <= VANISHING})
@@ -226,7 +226,7 @@ STUDY = Study(
             short="κ agrees with values between those of Persson and of Bush, Gibson and Thomas",
             key="kappa",
         ),
-        from_light(quantity=BESIDE_BEM, model=TAIL, whose=Whose.FINDING).saying(
+        from_light(quantity=BESIDE_BEM, model=TAIL, whose=Whose.HYPOTHESIS).saying(
             "With the measured mean gap and no parameter, the tail of Gaussian heights gives the stiffness of a rough "
             "interface from 0.03 to 20 % contact.",
             short="The stiffness of the Gaussian tail at the measured gap agrees with that of boundary elements",
@@ -250,12 +250,12 @@ STUDY = Study(
             short="The asperities of Bush, Gibson and Thomas agree with boundary elements",
             key="bush-gibson-thomas",
         ),
-        from_light(quantity=BESIDE_BEM, model=MDR, whose=Whose.FINDING).saying(
+        from_light(quantity=BESIDE_BEM, model=MDR, whose=Whose.HYPOTHESIS).saying(
             "MDR, without its flat punch, gives the stiffness of a rough interface; it has no contact area.",
             short="The stiffness of MDR without its flat punch agrees with that of an interface",
             key="mdr",
         ),
-        Claim(quantity=BOUNDED, whose=Whose.FIELD).saying(
+        Claim(quantity=BOUNDED, whose=Whose.LITERATURE).saying(
             "The stiffness of every surface is within the bounds of Barber and of convex load paths.",
             short="The stiffness agrees with its bounds",
             key="barber",

@@ -19,7 +19,7 @@ import bem3d
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.statistics import DECIBEL
 from validation.cases.punch.interface import Interface
-from validation.cases.wheel import features
+from validation.cases.wheel import ensembles
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.judging.judgement import DEVIATION
@@ -49,7 +49,7 @@ Find = Callable[["Report", Engine], Iterable[Reference]]
 SPRINGS_OVER = f"{SPRINGS} over {BEM}"
 TENTH = 1.2816
 """Of a Gaussian, its deviations to the highest tenth."""
-FEATURES = tuple(features.QUANTITIES.values())
+FEATURES = tuple(ensembles.QUANTITIES.values())
 
 
 @dataclass(frozen=True)
