@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
 import numpy as np
 
@@ -12,11 +13,13 @@ from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units, typical_slope
 from bem3d.problem import Problem
-from bem3d.results import ReadOnly, span
+from bem3d.results import ReadOnly, kept, span
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 
 Level = tuple[tuple[int, int], int]
 """Shape of a coarser grid, and the operator applications on it."""
+PERIMETER = (math.pi - 1 + math.log(2)) / 24
+"""Part of a cell that the contact area on a grid is too large by, for each side of a cell between contact and gap."""
 
 
 class Status(StrEnum):
@@ -91,6 +94,51 @@ class Contact(ReadOnly):
     def area(self) -> float:
         """Cells under pressure times dx dy [m^2]."""
         return int(np.count_nonzero(self.pressure)) * self.problem.half_space.cell_area
+
+    @cached_property
+    def corrected_area(self) -> float:
+        """Contact area less what the grid adds along its boundary, an estimate for cells of no size [m^2].
+
+        A' = A - (pi - 1 + ln 2) / 24 S, S the number of sides between a cell under pressure and one without, times
+        dx dy: the area of a cell counts as a whole where a part of it is in contact. Sides along the end of a free
+        grid do not count, a periodic grid has none. On 8 cells to a contact radius a sphere's area is within 1 %.
+        Range: contacts of some cells; a single one keeps half of its area.
+        Source: Yastrebov, Anciaux and Molinari, Tribol. Int. 114, 161 (2017).
+        """
+        under = self.pressure > 0
+        sides = sum(int(np.count_nonzero(np.diff(under, axis=axis))) for axis in (0, 1))
+        if self.problem.half_space.periodic:
+            ends = (under[0] != under[-1], under[:, 0] != under[:, -1])
+            sides += sum(int(np.count_nonzero(end)) for end in ends)
+        return self.area - PERIMETER * sides * self.problem.half_space.cell_area
+
+    @cached_property
+    def displacement(self) -> FloatArray:
+        """u = K p at the centres of the cells, into the half-space, read-only [m].
+
+        One operator application, at the first use. Of a periodic half-space its mean is zero.
+        """
+        return kept(self.problem.half_space.apply(self.pressure))
+
+    @cached_property
+    def gap(self) -> FloatArray:
+        """Separation of the deformed surfaces, gap of the problem + u - approach, read-only [m].
+
+        Zero where there is pressure, and nowhere negative, within the residual times the overlap.
+        """
+        return kept(self.problem.gap + self.displacement - self.approach)
+
+    @cached_property
+    def mean_gap(self) -> float:
+        """Mean of `gap` over the cells [m].
+
+        Of a periodic half-space the distance of the mean planes, mean(gap of the problem) - approach, without an
+        operator application. In free space the mean over the grid: that of a punch that ends with it; of a body that
+        curves away it depends on the size of the grid.
+        """
+        if self.problem.half_space.periodic:
+            return float(self.problem.gap.mean()) - self.approach
+        return float(self.gap.mean())
 
     @property
     def residual(self) -> float:

@@ -352,9 +352,10 @@ def test_no_claim_depends_on_units(power, length):
 
 
 def test_scenes_are_asked_for_what_they_have():
-    assert quantities_of(punch()) == ("stiffness",)
+    of_punches = ("stiffness", "contact-area", "mean-gap")
+    assert quantities_of(punch()) == of_punches
     assert quantities_of(wheel()) == ("force-rms", "force-spectrum")
-    assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(all_quantities()) - {"stiffness", *RAIL_QUANTITIES}
+    assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(all_quantities()) - {*of_punches, *RAIL_QUANTITIES}
     with pytest.raises(ValueError, match=r"^quantity must be one of force-rms, force-spectrum for scene 'wheel'"):
         compare(wheel(), quantity="acceleration")
 

@@ -10,7 +10,7 @@ from validation.advice.hierarchy import Candidate, contradicting
 from validation.advice.scene_model import SAMPLE_SHARE
 from validation.analysis.number_text import format_seconds
 from validation.analysis.statistics import student
-from validation.scenes.scene import Scene
+from validation.scenes.scene import INTERFACE, Scene
 from validation.simulation.method import realisations
 
 SOLVES_IT = "not solved (--models mdr solves it)"
@@ -55,15 +55,22 @@ def in_short(comparison: Comparison) -> str:
     """The verdict on MDR in one sentence."""
     springs = springs_of(comparison)
     if springs is None:
-        return "MDR has no springs for this scene"
+        return f"MDR has no {_lacking(comparison) or 'springs for this scene'}"
     enough, why = verdict(comparison, springs)
     return f"MDR ({springs.name}) is {enough}: {why}"
+
+
+def _lacking(comparison: Comparison) -> str:
+    """The quantity that MDR has of no scene; empty for any other."""
+    return comparison.quantity.replace("-", " ") if comparison.quantity in map(str, INTERFACE) else ""
 
 
 def in_full(comparison: Comparison) -> list[str]:
     """The verdict on MDR, a sentence for each model of springs."""
     springs = [candidate for candidate in comparison.models if candidate.is_mdr]
     if not springs:
+        if lacking := _lacking(comparison):
+            return [f"MDR: its springs have no neighbours, and it has no {lacking}."]
         return ["MDR: no springs are among the models of this scene."]
     return [
         f"MDR{f' ({candidate.name})' if len(springs) > 1 else ''}: {_sentence(comparison, candidate)}."

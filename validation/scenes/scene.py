@@ -37,11 +37,15 @@ class SceneQuantity:
 
 
 STIFFNESS = SceneQuantity("stiffness", "N/m", averaged_itself=True)
+CONTACT_AREA = SceneQuantity("contact-area", "m²", averaged_itself=True)
+MEAN_GAP = SceneQuantity("mean-gap", "m", averaged_itself=True)
 FORCE_RMS = SceneQuantity("force-rms", "N")
 FORCE_SPECTRUM = SceneQuantity("force-spectrum", "N", in_bands=True)
 ACCELERATION = SceneQuantity("acceleration", "m/s²", in_bands=True, of_motion=True)
 ACCELERATION_RMS = SceneQuantity("acceleration-rms", "m/s²", of_motion=True)
 PRESSED = (STIFFNESS,)
+INTERFACE = (CONTACT_AREA, MEAN_GAP)
+"""Of a rough punch: the true contact area, and the mean distance of the deformed faces over the side."""
 ROLLING = (FORCE_RMS, FORCE_SPECTRUM)
 MOVING = (ACCELERATION, ACCELERATION_RMS)
 

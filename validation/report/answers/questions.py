@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
-from validation.analysis.number_text import level_as_factor, level_in_decibels, level_in_per_cent
+from validation.analysis.number_text import level_in_decibels, level_in_per_cent
 from validation.analysis.quantity import RMS_FORCE
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
@@ -58,13 +58,6 @@ OF_THE_CORE = (
         of_mdr(quantity=punch.DEVIATION),
         level_in_per_cent,
         (Alternative(BEM, timed=a_surface(punch.DEVIATION)),),
-    ),
-    Question(
-        "area-and-gap",
-        "True contact area and mean gap of a rough punch, ensemble means",
-        of_rolled_off(quantity=(interface.AREA, interface.GAP)),
-        level_as_factor,
-        (PRESSED,),
     ),
     Question(
         "roll-off",
