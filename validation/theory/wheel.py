@@ -6,9 +6,11 @@ Frequencies are angular, omega in rad/s; spectra are those of (14.17), two-sided
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
 
 FloatArray = NDArray[np.float64]
 
@@ -32,6 +34,23 @@ def dynamic_stiffness(
         inertia, speed = (2 * np.sin(w * time_step / 2) / time_step) ** 2, np.sin(w * time_step) / time_step
     dashpot = 2 * damping * np.sqrt(stiffness * mass)
     return np.asarray(stiffness - mass * inertia + 1j * dashpot * speed)
+
+
+def contact_resonance(*, stiffness: float, mass: float, impedance: Callable[[float], NDArray[np.complex128]]) -> float:
+    """omega at which the imaginary parts of i omega / k + 1 / (i omega M) + 1 / Z(omega) cancel [rad/s].
+
+    The mobilities of the contact spring, of the wheel and of the rail under it; impedance: Z [N s/m], of a mass or a
+    damper. Above sqrt(k / M), where the rail is rigid. Source: Thompson, Railway Noise and Vibration, chapter 2.
+    """
+    rigid = math.sqrt(stiffness / mass)
+
+    def left(omega: float) -> float:
+        return omega / stiffness - 1 / (omega * mass) + float((1 / impedance(omega)).imag)
+
+    high = rigid
+    while left(high) < 0:
+        high *= 2
+    return float(brentq(left, rigid, high)) if high > rigid else rigid
 
 
 def acceleration_over_force(
