@@ -17,8 +17,8 @@ from validation.railway.problems.wheel_on_rail import WheelOnRail
 from validation.scenes import rail_impedance
 from validation.scenes.rail_impedance import FITTED, FreeBeam, RailBody, RailDashpot, impedance_of_bodies
 from validation.scenes.wheel_body import DampedWheel
-from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw
-from validation.simulation.integrators import INTEGRATORS
+from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw, in_series
+from validation.simulation.integrators import INTEGRATORS, velocity_verlet
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS_THAT_READ as SPRINGS
 from validation.simulation.motion import simulate
@@ -133,7 +133,8 @@ def steady(rail, frequency, points):
 
 
 @catches("a rail that moves towards the wheel", "free beam", 700.0).at(
-    "validation.simulation.contact_laws.in_series", lambda stiffness: 1 / (1 / stiffness[0] - sum(1 / stiffness[1:]))
+    "validation.simulation.contact_laws.in_series",
+    lambda stiffness: in_series(np.concatenate([stiffness[:1], -stiffness[1:]])),
 )
 @catches("the rail forgotten", "dashpot and mass", 700.0).at(
     "validation.simulation.contact_laws.in_series", lambda stiffness: stiffness[0]
@@ -176,7 +177,7 @@ LAWS = {
 
 @catches("a rail that follows half of the force", "springs").at(
     "validation.simulation.motion.velocity_verlet",
-    lambda rate, share: rail_impedance_halved(rate, share),
+    lambda rate, share: velocity_verlet(rate, np.where(np.arange(len(share))[:, np.newaxis] > 0, share / 2, share)),
 )
 @pytest.mark.parametrize("name", [*list(LAWS)[:3], pytest.param("BEM", marks=pytest.mark.slow)])
 def test_every_contact_moves_wheel_and_rail_by_the_same_force(name):
@@ -199,12 +200,6 @@ def test_every_contact_moves_wheel_and_rail_by_the_same_force(name):
     assert np.abs(d - d[0] - y - u).max() < 1e-9
     if name != "linear":
         assert motion.airborne[0] == np.count_nonzero(force == 0) > 5
-
-
-def rail_impedance_halved(rate, share):
-    from validation.simulation.integrators import velocity_verlet
-
-    return velocity_verlet(rate, np.where(np.arange(len(share))[:, np.newaxis] > 0, share / 2, share))
 
 
 @catches("a rail that drives the wheel").at(
@@ -258,7 +253,7 @@ def test_other_schemes_are_refused_on_a_rail_that_gives_way():
 
 
 @catches("a rail forgotten in the problem", SPRINGS).at(
-    "validation.railway.problems.wheel_on_rail.WheelOnRail.rail", None
+    "validation.railway.problems.wheel_on_rail.DampedWheel", lambda rail, **settings: DampedWheel(**settings)
 )
 @pytest.mark.parametrize("model", [pytest.param(BEM, marks=pytest.mark.slow), SPRINGS])
 def test_a_wheel_on_a_beam_follows_little_roughness_as_the_linear_contact_does(model):
