@@ -298,6 +298,12 @@ INSTEAD = {
     ),
     ("contact-filter", "linear, ellipse"): ("across", "A3 over that of boundary elements", "linear, ellipse"),
     ("contact-filter", "spring bed"): ("across", "A3 over that of boundary elements", "spring bed wider by 2/√3"),
+    ("rolling-spectrum", "springs, rolling spectrum"): (
+        *("rolling", "rms of level of an octave", "springs, rolling spectrum over boundary elements"),
+    ),
+    ("dynamic-wheel", "springs, rolling spectrum"): (
+        *("wheel_3d", "level", "springs, rolling spectrum over boundary elements"),
+    ),
     ("dynamic-wheel", "linear filter, 3D"): ("wheel_3d", "level", "linear filter, 3D over boundary elements"),
     ("dynamic-wheel", "on a rail"): (
         "rail_dynamic",
