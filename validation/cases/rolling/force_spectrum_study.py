@@ -54,9 +54,10 @@ STUDY = Study(
         "Boundary elements are taken over linear theory on the same surfaces, which removes most of the scatter. "
         "Levels in octaves, from the longest wave on, are judged by their root mean square. Input spectra of springs "
         "for one surface are Geike's; the line trace, which a measured line has; and the rolling-equivalent spectrum "
-        "C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k². They are judged in linear theory on six spectra. From the levels of the force of boundary "
-        "elements in one-third octaves, (14.14) and the filter in 3D are read backwards, the latter by the heights "
-        f"of all bands together that have these levels, with C_2D falling as q^-{ASSUMED:g} within a band. "
+        "C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k². They are judged in linear theory on six "
+        "spectra. From the levels of the force of boundary elements in one-third octaves, (14.14) and the filter in 3D "
+        "are read backwards, the latter by the heights of all bands together that have these levels, with C_2D falling "
+        f"as q^-{ASSUMED:g} within a band. "
         + SLOPE_COUNTS
         + "; √2 times that is the rms gradient g of the surface, and the rms slope of Geike's profile."
     ),

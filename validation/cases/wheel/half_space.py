@@ -12,12 +12,12 @@ from validation.analysis.series import Estimates
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.analysis.statistics import FloatArray
 from validation.case import SERIAL, Engine, Outcomes
-from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d
+from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d, linear_spectrum
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import Outcome
 from validation.scenes.rolling import RollingScene
 from validation.simulation import model_names as named
-from validation.simulation.track_spectrum import InputSpectrum
+from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 
@@ -212,6 +212,21 @@ class WheelLevels:
         """ln of linear theory in three dimensions."""
         bands = zip(self.edges, self.edges[1:], strict=False)
         return np.log([_integral(self._density_3d, *band) for band in bands])
+
+    @property
+    def rolling_over_exact(self) -> FloatArray:
+        """ln of (14.12) on the rolling-equivalent spectrum over linear theory in three dimensions."""
+        scene = self.result.case.scene
+        assert scene.rail is not None  # strips refuse a smooth rail
+        track = TrackSpectrum(scene.rail, "rolling", scene.contact_radius)
+        bands = zip(self.edges, self.edges[1:], strict=False)
+        levels = [_integral(lambda omega: linear_spectrum(scene, omega, track), *band) for band in bands]
+        return np.asarray(np.log(levels) - self.exact)
+
+    @property
+    def without_zero(self) -> NDArray[np.bool_]:
+        """Bands in which sin(q a) has no zero."""
+        return np.asarray(np.diff(np.floor(self.edges / self.result.case.scene.oscillation_period)) == 0)
 
     def _density_3d(self, omega: FloatArray) -> FloatArray:
         scene = self.result.case.scene

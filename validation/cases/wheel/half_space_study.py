@@ -159,8 +159,24 @@ def notes(result: Outcomes) -> Sequence[str]:
             "three dimensions has them."
             for low, high in ([(below.min(), below.max())] if plateau.any() else [])
         ),
+        _on_rolling_spectrum(levels),
         f"{change}{np.median(changes):.2g} dB in the median band and {changes.max():.2g} dB at most; levels are those "
         "of no size, to first order.",
+    )
+
+
+def _on_rolling_spectrum(levels: wheel.WheelLevels) -> str:
+    """What linear theory leaves of springs on the rolling-equivalent spectrum."""
+    over, whole = POWER_DECIBEL * np.abs(levels.rolling_over_exact), levels.without_zero
+    plateau = levels.ranges["region 2"]
+    region_3 = np.any([inside for name, inside in levels.ranges.items() if name != "region 2"], axis=0)
+    parts = {"region 2": plateau, "region 3, in bands without a zero of sin(q a)": region_3 & whole}
+    worst = [f"within {over[inside].max():.2g} dB in {name}" for name, inside in parts.items() if inside.any()]
+    at_zeros = over[region_3 & ~whole]
+    last = [f"up to {at_zeros.max():.2g} dB off in bands with one"] if at_zeros.size else []
+    return (
+        "By linear theory springs on the rolling-equivalent spectrum are "
+        f"{', '.join([*worst, *last])}: one dimension has zeros that three dimensions fill."
     )
 
 
