@@ -15,7 +15,7 @@ from scipy import special
 
 from validation.theory.closed_forms import circular_punch_stiffness, positive
 from validation.theory.half_space import on_panels
-from validation.theory.wheel import dynamic_stiffness, over_frequency
+from validation.theory.wheel import dynamic_stiffness, over_frequency, over_the_resonance
 
 FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
@@ -258,3 +258,15 @@ class RollingWheel:
         q = np.asarray(omega, dtype=np.float64) / self.speed
         force = over_frequency(self.force_spectrum(q, c1d, q_max=q_max), speed=self.speed)
         return np.asarray(force * np.abs((q * self.speed) ** 2 * self.compliance(q)) ** 2)
+
+    def over_resonance(self, c1d: Callable[[FloatArray], FloatArray], *, q_max: float) -> float:
+        """int A df over the resonance, positive frequencies, of the second order: region 1 [(m/s^2)^2].
+
+        A_F2(omega_0) omega_0 / (8 zeta M^2), of leading order in zeta: it goes as one over the damping and depends on
+        no length of a record.
+        omega_0 below q_min v_0; c1d, q_max: as of `force_spectrum`. Raises ValueError without damping.
+        """
+        stiffness = circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
+        omega = math.sqrt(stiffness / self.mass)
+        (force,) = over_frequency(self.force_spectrum(omega / self.speed, c1d, q_max=q_max), speed=self.speed)
+        return float(force) * over_the_resonance(eigenfrequency=omega, mass=self.mass, damping=self.damping)

@@ -64,6 +64,17 @@ def acceleration_over_force(
     return np.asarray(1 / ((mass * (1 - ratio**2)) ** 2 + (2 * damping * mass * ratio) ** 2))
 
 
+def over_the_resonance(*, eigenfrequency: float, mass: float, damping: float) -> float:
+    """int abs(a(omega) / dF(omega))^2 df over the resonance, positive frequencies, omega_0 / (8 zeta M^2) [Hz/kg^2].
+
+    Leading order in zeta, positive: under a force whose spectrum is level there, what region 1 of the acceleration
+    holds. Without damping there is no such integral: the level grows as the record gets longer.
+    """
+    if not damping > 0:
+        raise ValueError(f"damping must be positive, got {damping:g}: a resonance of no width has no integral")
+    return eigenfrequency / (8 * damping * mass**2)
+
+
 def contact_force_over_force(omega: ArrayLike, *, eigenfrequency: float, damping: float) -> FloatArray:
     """abs((F - F_N) / dF)^2: the force of the contact that moves, over that at a fixed approach [-].
 
