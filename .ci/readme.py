@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from validation.analysis.claim_text import listed
+from validation.analysis.evidence import Verdict
 from validation.analysis.number_text import half_open_text
 from validation.analysis.ranges import verdict_ranges
-from validation.analysis.verdict import Verdict
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)

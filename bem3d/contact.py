@@ -11,9 +11,8 @@ import numpy as np
 from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units, typical_slope
-from bem3d.formatting import span
 from bem3d.problem import Problem
-from bem3d.read_only import ReadOnly
+from bem3d.results import ReadOnly, span
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 
 Level = tuple[tuple[int, int], int]

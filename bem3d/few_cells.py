@@ -20,10 +20,9 @@ from bem3d import kernel
 from bem3d.checks import BoolArray, FloatArray, IndexArray, Loads, count, field, finite_row, fraction
 from bem3d.contact import residual
 from bem3d.convergence import ConvergenceError
-from bem3d.formatting import span
 from bem3d.halfspace import HalfSpace
 from bem3d.projected_cg import Load, projected_cg
-from bem3d.read_only import ReadOnly
+from bem3d.results import ReadOnly, span
 from bem3d.window import dots
 
 CellArray = NDArray[np.int32]

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from bem3d.checks import FloatArray, boolean, field, finite, not_negative
-from bem3d.formatting import span
 from bem3d.halfspace import HalfSpace
-from bem3d.read_only import ReadOnly, kept
+from bem3d.results import ReadOnly, kept, span
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from bem3d.checks import FloatArray, OneOrTwo, count, positive
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import warn
-from bem3d.formatting import span
 from bem3d.progress import Progress, steps
-from bem3d.read_only import ReadOnly
+from bem3d.results import ReadOnly, span
 from bem3d.rolling_contact import RollingContact, WheelContact
 from bem3d.rolling_frame import Track
 

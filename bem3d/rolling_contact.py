@@ -10,8 +10,8 @@ import numpy as np
 
 from bem3d.checks import FloatArray, count, finite, fraction, positive
 from bem3d.contact import Status
-from bem3d.formatting import span
 from bem3d.projected_cg import Load
+from bem3d.results import span
 from bem3d.rolling_frame import Frame, Spans, Track
 from bem3d.rolling_solve import FramePressure, FrameSolve
 from bem3d.window_solve import IterationState

@@ -11,11 +11,9 @@ import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray, IndexArray, OneOrTwo, grid_spacing, positive, positive_pair, strip
 from bem3d.diagnostics import ContactWarning, diagnose_sphere, diagnose_units, typical_slope
-from bem3d.formatting import pair, span
 from bem3d.halfspace import HalfSpace
-from bem3d.read_only import ReadOnly, kept
-from bem3d.smooth_wheel import SmoothContact, smooth_contact
-from bem3d.transverse_profile import checked_profile, equivalent_radius, top_column
+from bem3d.results import ReadOnly, kept, pair, span
+from bem3d.smooth_wheel import SmoothContact, checked_profile, equivalent_radius, smooth_contact, top_column
 from bem3d.window import Box, fast_side
 
 Span = tuple[int, int]

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
 from mdr.diagnostics import diagnose_heights, diagnose_load, warn
-from mdr.formatting import span
-from mdr.read_only import ReadOnlyArrays
+from mdr.results import ReadOnlyArrays, span
 
 Value = TypeVar("Value", float, FloatArray)
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, doubles, finite, finite_array, held, not_negative, positive
 from mdr.diagnostics import diagnose_units, warn
-from mdr.formatting import span
+from mdr.results import span
 
 
 def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:

@@ -16,7 +16,7 @@ from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
 from validation.advice.scene_model import Answer
 from validation.engine.street import HOUSES
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation.model import Cost, ErrorEstimate
 
 SPHERE = validation.load_scene("sphere")

@@ -10,13 +10,12 @@ import numpy as np
 import validation
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection, select_model
-from validation.advice.quantities import models_of, quantity_of
+from validation.advice.models_of_scene import models_of, quantity_of
 from validation.advice.scene_model import Answer
 from validation.advice.tolerance import tolerance_of
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.rolling import RollingScene
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity, RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.model import Cost, ErrorEstimate
 

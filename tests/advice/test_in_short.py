@@ -8,7 +8,7 @@ import validation
 from tests.advice.planted_answers import REASON, Fake, Finding, compared, planted, wheel
 from tests.seeded import catches
 from validation.__main__ import main
-from validation.advice.quantities import quantities_of
+from validation.advice.models_of_scene import quantities_of
 from validation.advice.summary import WIDTH, findings, in_short
 from validation.scenes.load import bundled_for_compare
 

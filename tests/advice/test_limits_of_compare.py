@@ -14,7 +14,7 @@ from tests.advice.planted_answers import Finding, compared
 from tests.judging.test_own_models import OPEN, PUNCH, SCENES, answers, stored
 from tests.seeded import catches
 from validation.advice import compare
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.advice.scene_model import Answer, SceneModel
 from validation.judging import own_models
 from validation.railway.models.rail import LINEAR_ELLIPSE

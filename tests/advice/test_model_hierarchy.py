@@ -22,13 +22,13 @@ from validation.advice.cases.random_scenes import KINDS, random_scene
 from validation.advice.compare import compare
 from validation.advice.hierarchy import needed, select_model
 from validation.advice.models import boundary_elements_pressed
-from validation.advice.quantities import all_quantities, models_of, quantities_of
+from validation.advice.models_of_scene import all_quantities, models_of, quantities_of
 from validation.advice.summary import bands_of, summary
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.method import distance, mean_error
@@ -242,7 +242,7 @@ def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
 
 
 @catches("Geike for the half-space under a wheel").at(
-    "validation.scenes.rolling_quantity.force_spectrum_3d", by_the_filter_of_one_dimension
+    "validation.scenes.rolling.force_spectrum_3d", by_the_filter_of_one_dimension
 )
 def test_the_expected_levels_are_integrals_of_the_spectrum():
     quantity = RollingQuantity(wheel(), "force-spectrum")
@@ -262,9 +262,7 @@ def test_the_expected_levels_are_integrals_of_the_spectrum():
         assert level**2 == pytest.approx(2 * integrate.quad(density, low, high, epsrel=1e-5)[0], rel=1e-4)
 
 
-@catches("a factor 2 lost in the variance of the force").at(
-    "validation.scenes.rolling_quantity.force_variance", Times(0.5)
-)
+@catches("a factor 2 lost in the variance of the force").at("validation.scenes.rolling.force_variance", Times(0.5))
 def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     rms = RollingQuantity(wheel(), "force-rms")
     c2d = rms.scene.ground.c2d
@@ -276,9 +274,7 @@ def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     assert np.sqrt(np.mean(ratio[levels.bands.centres > 4] ** 2)) == pytest.approx(10 ** (4 / 20), rel=0.15)
 
 
-@catches("one panel of a quadrature over decades", one_dimensional=False).at(
-    "validation.scenes.rolling_quantity.PANEL", 1e9
-)
+@catches("one panel of a quadrature over decades", one_dimensional=False).at("validation.scenes.rolling.PANEL", 1e9)
 @pytest.mark.parametrize("one_dimensional", [True, False])
 def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
     moving = wheel(first=1 / 100, last=4.0, mass=2.0, speed=400.0)
@@ -288,7 +284,7 @@ def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
 
 
 @catches("no resonator between force and acceleration").at(
-    "validation.scenes.rolling_quantity.RollingQuantity.transfer",
+    "validation.scenes.rolling.RollingQuantity.transfer",
     lambda quantity, q: np.ones_like(q) / quantity.scene.body.mass,
 )
 def test_the_transfer_of_a_wheel_is_that_of_its_resonator():

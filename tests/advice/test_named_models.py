@@ -12,12 +12,10 @@ from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice.compare import SceneProblem
 from validation.advice.hierarchy import select_model
-from validation.advice.named_models import models_named
-from validation.advice.quantities import models_of, quantities_of
+from validation.advice.models_of_scene import models_named, models_of, quantities_of
 from validation.advice.summary import WIDTH, summary
 from validation.scenes.load import load_varied
-from validation.simulation.model_aliases import label_of
-from validation.simulation.model_names import SPRINGS_THAT_READ
+from validation.simulation.model_names import SPRINGS_THAT_READ, label_of
 
 SPECTRUM = "rolling_wheel --quantity force-spectrum"
 
@@ -36,7 +34,7 @@ def test_short_names_are_mdr_and_the_grid_that_claims_the_tolerance():
 
 
 @catches("dominated models among those that are offered", models=(), count=0).at(
-    ("validation.advice.quantities.BY_NAME", "validation.advice.compare.BY_NAME"), ()
+    ("validation.advice.models_of_scene.BY_NAME", "validation.advice.compare.BY_NAME"), ()
 )
 @pytest.mark.parametrize(("models", "count"), [((), 0), (("Remington",), 0), ((SPRINGS_THAT_READ,), 1), (("mdr",), 1)])
 def test_springs_that_read_the_surface_are_there_by_name_alone(models, count):

@@ -18,7 +18,7 @@ from validation.advice import advice as on_mdr
 from validation.advice.compare import Comparison, SceneProblem
 from validation.advice.exported import to_csv
 from validation.advice.hierarchy import ALIKE, Candidate, contradict
-from validation.advice.quantities import models_of, quantities_of
+from validation.advice.models_of_scene import models_of, quantities_of
 from validation.advice.scene_model import Answer
 from validation.advice.summary import findings, in_short, overview_of, summary
 from validation.simulation.model import Cost, ErrorEstimate

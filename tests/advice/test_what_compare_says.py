@@ -11,12 +11,12 @@ import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted, wheel
 from tests.seeded import catches
 from validation.advice.advice import in_full
-from validation.advice.quantities import quantities_of
+from validation.advice.models_of_scene import quantities_of
 from validation.advice.summary import STATUS_IN_WORDS, WIDTH, models_of_page, side_by_side, summary
 from validation.advice.table import error_of_difference
 from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.scenes.load import bundled_for_compare
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 
 ENDS = tuple(end for words in STATUS_IN_WORDS.values() for end in (words, words.replace("not solved", "solved")))
 """Of the rows of models."""

@@ -9,6 +9,7 @@ from hypothesis import given
 from tests.analysis.test_judged_claims import point, points_with, verdicts
 from tests.seeded import catches
 from validation.analysis import claim_text
+from validation.analysis.case import Outcomes, Study
 from validation.analysis.claim_text import (
     NOT_THIS_CURVE,
     AnswerPattern,
@@ -19,12 +20,10 @@ from validation.analysis.claim_text import (
     listed,
 )
 from validation.analysis.claims import Claim, Matrix
-from validation.analysis.evidence import ClaimStatus, Role, Verdict
+from validation.analysis.evidence import OF_NUMBERS, ClaimStatus, Role, Verdict
 from validation.analysis.number_text import decibels
 from validation.analysis.ranges import verdict_ranges
 from validation.analysis.series import Margin, Series
-from validation.analysis.study import Outcomes, Study
-from validation.analysis.verdict import OF_NUMBERS
 
 AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}

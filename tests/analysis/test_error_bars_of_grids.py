@@ -10,6 +10,7 @@ from scipy import stats
 from tests.analysis.intervals import covered, holds, t
 from tests.seeded import catches
 from validation.analysis import statistics
+from validation.analysis.case import Outcomes
 from validation.analysis.series import Series
 from validation.analysis.statistics import (
     DECIBEL,
@@ -23,8 +24,7 @@ from validation.analysis.statistics import (
     on_no_size,
     student,
 )
-from validation.analysis.study import Outcomes
-from validation.benchmarks.work_precision.errors import MethodValues, error
+from validation.benchmarks.work_precision.pareto import MethodValues, error
 from validation.benchmarks.work_precision.problem import ChartQuantity, mean_of
 from validation.cases.punch import fractal_punch_study as study
 from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from tests.analysis.intervals import covered, ends, holds
+from validation.analysis.case import Outcomes
 from validation.analysis.series import Estimates
 from validation.analysis.statistics import POWER_DECIBEL, Estimate
-from validation.analysis.study import Outcomes
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from validation.analysis.sound import Sound, Sounds, a_weighting, common_full_scale, filtered, powers_of_blocks
+from validation.analysis.spectra import Sound, Sounds, a_weighting, common_full_scale, filtered, powers_of_blocks
 
 
 def test_what_is_left_over_is_in_no_piece():

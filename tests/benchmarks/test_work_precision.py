@@ -12,13 +12,22 @@ from validation.analysis.evidence import Table
 from validation.analysis.spectra import levels, waves
 from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import FINISHED, TimedProblem
-from validation.benchmarks.work_precision import figure_cost, rolling
+from validation.benchmarks.work_precision import figure_cost
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.case import CASE, WITHIN, WITHOUT, Precision, run
 from validation.benchmarks.work_precision.pareto import TOLERANCES
-from validation.benchmarks.work_precision.pressed import PunchProblem, RoughPunchProblem, SphereProblem
-from validation.benchmarks.work_precision.problem import BEM, CLOSED, EXTRAPOLATED, LOOSE, MDR, Grids
-from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.benchmarks.work_precision.problem import (
+    BEM,
+    CLOSED,
+    EXTRAPOLATED,
+    LOOSE,
+    MDR,
+    Grids,
+    PunchProblem,
+    RollingProblem,
+    RoughPunchProblem,
+    SphereProblem,
+)
 from validation.engine.engine import Engine
 from validation.report import contents
 from validation.report.commands import run_cases
@@ -189,7 +198,7 @@ def test_means_over_phases_are_those_of_many_linear_realisations():
     scene, cells = SMALL.rolling, 3
     surfaces = [scene.rough_strip.surface(cells, i) for i in range(60)]
     values = [scene.on(cells).prepare()(i).read(np.zeros(scene.length * cells)).values for i in range(2)]
-    forces = [linear_force(one, spacing=1 / cells, **rolling.SMOOTH) / HERTZ - 1 for one in surfaces]
+    forces = [linear_force(one, spacing=1 / cells, **precision.SMOOTH) / HERTZ - 1 for one in surfaces]
     found = {
         "level": np.array([levels(waves(force, spacing=1 / cells), scene.bands) for force in forces]),
         "variance": np.array([np.mean(force**2) for force in forces]),

@@ -9,10 +9,10 @@ import pytest
 
 from tests.analysis.test_judged_claims import point
 from tests.seeded import catches
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import Role, Verdict, numbers_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, Linearised, Resolved, student
-from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch, fractal_punch_study
 from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS

@@ -13,15 +13,15 @@ import mdr
 from tests.oracles import approach_by_least_squares, dense_operator, spring_sum
 from tests.seeded import catches, catches_root_of_two
 from validation.analysis import statistics
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.analysis.statistics import Resolved
-from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch
 from validation.cases.punch.ensembles import APPLICATIONS, DEVIATION, MEAN, OVER, worked
 from validation.cases.punch.fractal_punch import CONVEX, LONG, SLOPE, TREND, FractalPunch
 from validation.cases.punch.fractal_punch_study import EXPONENT, LESS, STUDY
 from validation.cases.rolling.force_spectrum import ForceSpectrum
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR

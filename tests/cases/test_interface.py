@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tests.seeded import catches
+from validation.analysis.case import Outcomes
 from validation.analysis.claim_text import NOT_THIS_CURVE
 from validation.analysis.evidence import ClaimStatus, Number, Verdict, numbers_with
-from validation.analysis.study import Outcomes
 from validation.cases.punch import interface_study
 from validation.cases.punch.interface import (
     BESIDE_BEM,

@@ -16,10 +16,10 @@ from tests.cases.test_limits import STEEP
 from tests.seeded import catches
 from validation.advice.cases import model_selection as ladder
 from validation.advice.cases import model_selection_study as calibration
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import Verdict, numbers_with
 from validation.analysis.series import Estimates, Series, tables_of
 from validation.analysis.statistics import Interval
-from validation.analysis.study import Outcomes
 from validation.cases.limits import limits
 from validation.cases.limits.sweeps import Sweep
 from validation.cases.punch import fractal_punch, interface_study

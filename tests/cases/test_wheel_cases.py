@@ -16,7 +16,7 @@ from validation.cases.wheel.features import FIRST, FOURTH, JUMP, LEVEL, PEAK, PE
 from validation.cases.wheel.half_space_study import CASE as CASE_3D
 from validation.cases.wheel.half_space_study import LEVELS
 from validation.cases.wheel.spectrum_study import CASE
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 from validation.simulation import wheel_on_springs
 from validation.simulation.motion import natural_periods
 

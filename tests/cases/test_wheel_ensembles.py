@@ -79,7 +79,7 @@ def test_a_part_is_the_beginning_of_the_motion_that_repeats_itself(linear):
 
 
 @catches("a wheel of half of its circumference").at(
-    "validation.scenes.wheel_track.OnTrack.circumference_points",
+    "validation.scenes.wheel_body.OnTrack.circumference_points",
     property(lambda one: round(np.pi * one.radius / one.spacing)),
 )
 def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
@@ -193,8 +193,8 @@ def inverted(omega, *, eigenfrequency, mass, damping):
     return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
 
 
-@catches("omega / omega_0 for omega_0 / omega").at("validation.theory.wheel.acceleration_over_force", inverted)
-@catches("factor 2 pi lost over frequency").at("validation.theory.wheel.over_frequency", Times(1 / (2 * np.pi)))
+@catches("omega / omega_0 for omega_0 / omega").at("validation.theory.rolling.acceleration_over_force", inverted)
+@catches("factor 2 pi lost over frequency").at("validation.theory.rolling.over_frequency", Times(1 / (2 * np.pi)))
 def test_the_linear_contact_has_its_closed_form_wave_by_wave():
     """A steady record is one period of its track, so waves are lines. Leapfrog sees 2 sin(omega dt / 2) / dt for omega,
     by which the resonator is known to be off; where a wave is too weak for its rounding, to that."""

@@ -18,7 +18,7 @@ from validation.judging.figure import figure_of
 from validation.judging.judgement import LEVEL, SolverTime, judged_number, missing_number
 from validation.judging.judgement_text import paragraph
 from validation.judging.kinds.own import ErrorOfCall
-from validation.judging.kinds.sweeps import HEAVY, LIGHT
+from validation.judging.kinds.properties import HEAVY, LIGHT
 
 SERIES = """
 from validation import stiffness_model
@@ -107,7 +107,7 @@ def broken(model, *_):
     "place",
     [
         "validation.judging.kinds.stiffness._rise",
-        "validation.judging.kinds.sweeps.swept",
+        "validation.judging.kinds.properties.swept",
         "validation.judging.judge.costs_of",
         "validation.judging.solvers.checks.judged",
     ],

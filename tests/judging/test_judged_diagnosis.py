@@ -11,8 +11,8 @@ from tests.judging.test_judged_stiffness import as_known, series
 from tests.seeded import catches
 from validation import judge, stiffness_model
 from validation.judging.judgement import AGAIN, UNTRUSTED, trusted_numbers
-from validation.judging.kinds import filters, profiles, stiffness
 from validation.judging.kinds import judge as repeats
+from validation.judging.kinds import profiles, rolling, stiffness
 from validation.judging.kinds.diagnosis import remarks
 from validation.judging.kinds.judge import Recorded, points_of, repeated
 from validation.judging.kinds.own import OWN, bed, ellipse, geike, half_space, in_1d, in_3d, line, springs, trace
@@ -276,8 +276,8 @@ def of_a_wheel(q, contact_radius, modulus, roughness):
 
 
 def of_an_ellipse(k_x, k_y, a_x, a_y):
-    table = {(row[filters.LOAD], row[filters.DIAMETER]) for row in reference_rows(filters.FILTER)}
-    contacts = [filters.scene_of(*wheel).contact for wheel in table]
+    table = {(row[rolling.LOAD], row[rolling.DIAMETER]) for row in reference_rows(rolling.FILTER)}
+    contacts = [rolling.scene_of(*wheel).contact for wheel in table]
     if all(abs(one.across / a_y - 1) + abs(one.along / a_x - 1) > 1e-6 for one in contacts):
         raise LookupError("an ellipse that is in no table")
     return ellipse(k_x, k_y, a_x, a_y)

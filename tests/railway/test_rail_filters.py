@@ -8,7 +8,7 @@ import pytest
 
 from tests.seeded import Times, catches
 from validation import compare, load_scene
-from validation.advice.quantities import all_quantities
+from validation.advice.models_of_scene import all_quantities
 from validation.advice.scene_model import SceneModel
 from validation.railway.problems import equivalent_displacement, rail_models
 from validation.railway.problems.equivalent_displacement import ONE_SIDED, RolledRail, linear_displacement, roll_rail

@@ -25,7 +25,8 @@ from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.railway.cases import across, rolled_filters
 from validation.railway.cases.filters import OFFSET
 from validation.railway.cases.rail_dynamic import BEAM, BESIDE, RAIL, RMS, SPRINGS_OVER_BEM
-from validation.report.answers import first_screen, seconds, strip
+from validation.report.answers import first_screen, strip
+from validation.report.answers import question as seconds
 from validation.report.answers.first_screen import answered_questions, from_to, plain
 from validation.report.answers.questions import QUESTIONS
 from validation.report.answers.strip import Cell, span

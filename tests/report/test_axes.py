@@ -14,8 +14,8 @@ from tests.report.remade import REFERENCE, sections
 from tests.seeded import catches
 from validation.advice.cases import model_selection as ladder
 from validation.advice.cases import model_selection_study as calibration
+from validation.analysis.case import Outcomes
 from validation.analysis.contents import csv_name
-from validation.analysis.study import Outcomes
 from validation.cases.limits.sweeps import LIMITS
 from validation.report.contents import CASES, TIMED
 from validation.report.drawing import draw

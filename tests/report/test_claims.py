@@ -12,8 +12,7 @@ from tests.report.remade import sections
 from tests.report.test_printed import evidence_with, html_of, number
 from tests.seeded import catches
 from validation.analysis.claims import Claim
-from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
-from validation.analysis.verdict import OF_NUMBERS
+from validation.analysis.evidence import OF_NUMBERS, ClaimStatus, JudgedClaim, Role, Verdict, Whose
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, REMARKS, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.commands.run_cases import lines_of

@@ -29,7 +29,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel.features import QUANTITIES
-from validation.engine import result_store
+from validation.engine import engine as ensemble
 from validation.railway.cases.across import Across
 from validation.railway.cases.rail_dynamic import RailDynamic
 from validation.railway.cases.rail_sound import RailSound, shipped_rail
@@ -235,10 +235,10 @@ def lose(place):
     """A stored result becomes that of a solve which did not converge: a flag, and no number."""
     with np.load(place) as stored_there:
         outcome = dict(stored_there)
-    key = json.loads(str(outcome.pop(result_store.LABEL)))["key"]
+    key = json.loads(str(outcome.pop(ensemble.LABEL)))["key"]
     floats = {name: values for name, values in outcome.items() if values.dtype.kind in "fc"}
     lost = {name: np.full_like(values, np.nan) for name, values in floats.items()}
-    result_store.save(place, key, {**outcome, **lost, "failed": np.ones_like(outcome["failed"])})
+    ensemble.save_result(place, key, {**outcome, **lost, "failed": np.ones_like(outcome["failed"])})
 
 
 def text_of(folder):

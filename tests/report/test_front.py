@@ -13,8 +13,7 @@ from tests.seeded import catches
 from validation.analysis.evidence import Table, Verdict, VerdictCell, Whose
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.pareto import FASTER
-from validation.benchmarks.work_precision.pressed import RoughPunchProblem
-from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.benchmarks.work_precision.problem import RollingProblem, RoughPunchProblem
 from validation.cases.limits.limits import SUMMARY
 from validation.railway.cases.across_study import LOUDER
 from validation.railway.front_page import OF_A3, WORST, rail_filters, right_filters

@@ -11,15 +11,12 @@ from hypothesis import strategies as st
 from tests.railway.test_rail_files import CURVE, LEVELS, loaded
 from tests.seeded import catches
 from validation.railway.scenes import level_files
-from validation.railway.scenes.line_columns import along_the_track
-from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.measured_lines import MeasuredLines, along_the_track
 from validation.scenes import text_dialect
-from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
 from validation.scenes.measured_heights import edited_lines
-from validation.scenes.number_table import TableForm, table_of_text
-from validation.scenes.positions import places_of
-from validation.scenes.text_dialect import WRITTEN, Dialect
+from validation.scenes.number_table import TableForm, places_of, table_of_text
+from validation.scenes.text_dialect import WRITTEN, Column, Dialect, column_of, columns_of, unit_of_all
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
 """Nominal wavelengths [mm] and levels [dB]."""

@@ -11,7 +11,7 @@ from scipy import stats
 import bem3d
 import mdr
 from tests.seeded import catches
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.scenes import measured_heights
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights

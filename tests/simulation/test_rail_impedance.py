@@ -22,7 +22,7 @@ from validation.simulation.integrators import INTEGRATORS, velocity_verlet
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS_THAT_READ as SPRINGS
 from validation.simulation.motion import simulate
-from validation.theory.wheel import contact_resonance
+from validation.theory.rolling import contact_resonance
 
 RAIL_60 = FreeBeam(bending_stiffness=6.38e6, mass_per_length=60.2)
 STEEL = DampedWheel(radius=0.46, mass=500.0, modulus=1.154e11, load=5e4)

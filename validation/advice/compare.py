@@ -13,17 +13,27 @@ from typing import Any
 import numpy as np
 
 from bem3d.diagnostics import HIGHEST_PRESSURE
-from bem3d.read_only import kept
+from bem3d.results import kept
 from mdr.checks import count
 from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate, Selection, rejected, select_model
-from validation.advice.named_models import ComparedModels, Decorated, Own, models_named, names_and_own, own_candidates
-from validation.advice.quantities import BY_NAME, models_of, quantities_of, quantity_of
+from validation.advice.models_of_scene import (
+    BY_NAME,
+    ComparedModels,
+    Decorated,
+    Own,
+    models_named,
+    models_of,
+    names_and_own,
+    own_candidates,
+    quantities_of,
+    quantity_of,
+)
 from validation.advice.scene_model import SceneModel, Shared
 from validation.advice.tolerance import Tolerance, decibels, tolerance_of
+from validation.analysis.escapes import shortened
 from validation.analysis.spectra import MANTISSAS
 from validation.engine.engine import FloatArray
-from validation.scenes.printable import shortened
 from validation.scenes.scene import Scene, SceneQuantity, values_of
 from validation.scenes.units import UNITS, quantity
 from validation.simulation.model import Target

@@ -8,7 +8,7 @@ import numpy as np
 
 from validation.advice.tolerance import NAMES, Columns
 from validation.analysis.number_text import NONE, half_width_text, signed
-from validation.analysis.sound import energy_sum
+from validation.analysis.spectra import energy_sum
 from validation.engine.engine import FloatArray
 
 LEVELS = (

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from validation.advice.scene_model import Answer, SceneModel
-from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.simulation.model import ErrorEstimate
 
 ALIKE = 2.0

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from bem3d.read_only import kept
+from bem3d.results import kept
 from validation.engine.engine import FloatArray
 from validation.simulation.method import STUDENT, Prepared, Resolution, Result, mean_error, realisations, too_few
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target

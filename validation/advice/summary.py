@@ -14,7 +14,7 @@ from validation.advice.advice import is_solved, springs_of, what_would_help, wou
 from validation.advice.compare import Comparison, OneOrSeveral, listed
 from validation.advice.contact_force import LEVELS
 from validation.advice.hierarchy import Candidate, Status
-from validation.advice.quantities import quantity_of
+from validation.advice.models_of_scene import quantity_of
 from validation.advice.scene_model import Answer
 from validation.advice.table import (
     DIFFERENCES,

@@ -7,10 +7,9 @@ from enum import StrEnum
 
 import numpy as np
 
-from validation.analysis.evidence import ClaimStatus, Number, VerdictCell, placed
+from validation.analysis.evidence import ClaimStatus, Number, Place, Verdict, VerdictCell, placed
 from validation.analysis.number_text import Printer, place_value, tolerance_text
 from validation.analysis.ranges import WORST_AT, SeparatingCondition, worst_place
-from validation.analysis.verdict import Place, Verdict
 
 QUANTITY = "quantity"
 """The condition of a claim that holds for some quantities."""

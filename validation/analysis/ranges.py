@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import TypeVar
 
-from validation.analysis.evidence import Number
-from validation.analysis.verdict import Place, Verdict
+from validation.analysis.evidence import Number, Place, Verdict
 
 Item = TypeVar("Item")
 WORST_AT = "worst at"

@@ -19,7 +19,7 @@ import bem3d
 import mdr
 from validation.engine.engine import FloatArray
 from validation.engine.files import write_whole
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation.surface import draw_surface
 from validation.theory.half_space import LoveHalfSpace
 

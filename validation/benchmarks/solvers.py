@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from bem3d.threads import cores
-from validation.analysis.case import Case, Chapter
+from validation.analysis.case import Case, Chapter, Outcomes, Study
 from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table, table_of
@@ -17,7 +17,6 @@ from validation.analysis.number_text import times_source
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
-from validation.analysis.study import Outcomes, Study
 from validation.benchmarks.peers import (
     OUR_SOLVER,
     OURS,

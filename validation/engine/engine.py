@@ -1,5 +1,11 @@
-"""Independent solves: their workers and their stored results."""
+"""Independent solves: their workers, and their results on disk.
 
+A file of a result that is not exactly as it was written is ignored.
+"""
+
+import hashlib
+import io
+import json
 import logging
 import re
 import time
@@ -11,15 +17,16 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from validation.engine import result_store
-from validation.engine.convergence import as_not_converged
+from validation.engine.files import is_plain, is_there, read_plain, write_whole
 from validation.engine.progress import Part
+from validation.engine.realisations import as_not_converged
 from validation.engine.sources import version_behind, version_of_numerics
 from validation.engine.workers import RESUME_NOTE, WorkerLostError, Workers
 
-FloatArray = result_store.FloatArray
-Outcome = result_store.Outcome
+FloatArray = NDArray[np.float64]
+Outcome = dict[str, FloatArray]
 P = TypeVar("P")
 K = TypeVar("K")
 
@@ -99,12 +106,10 @@ class Engine:
             for problem in problems
         ]
         name = solve.__module__, solve.__name__
-        places = [result_store.place_of(self.store, *name, key) if self.store else None for key in keys]
+        places = [place_of_result(self.store, *name, key) if self.store else None for key in keys]
         if self.timed_results is not None:
             self.timed_results.update((place, key) for place, key in zip(places, keys, strict=True) if place)
-        stored_outcomes = [
-            result_store.load(place, key) if place else None for place, key in zip(places, keys, strict=True)
-        ]
+        stored_outcomes = [load_result(place, key) if place else None for place, key in zip(places, keys, strict=True)]
         outcomes = {i: outcome for i, outcome in enumerate(stored_outcomes) if outcome is not None}
         failed = sum(map(_has_failures, outcomes.values()))
         progress = self.progress or Part()
@@ -134,7 +139,7 @@ class Engine:
         """
         measured: dict[Path, str] = {}
         yield replace(self, workers=1, executor=LOCAL, shared=None, timed_results=measured)
-        result_store.forget(measured)
+        forget_results(measured)
 
     def _results(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome, float], None, None]:
         """Index, outcome and seconds of each task, in the order in which they finish."""
@@ -183,7 +188,7 @@ class _PendingSolve(Generic[P]):
 
     def save(self, outcome: Outcome) -> None:
         if self.place is not None:
-            result_store.save(self.place, self.key, outcome)
+            save_result(self.place, self.key, outcome)
 
 
 def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome, float]:
@@ -243,3 +248,59 @@ def _client(executor: str) -> Iterator[tuple[Any, Any]]:
         raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {RESUME_NOTE}") from None
     finally:
         logger.setLevel(level)
+
+
+FORMAT = 2
+"""Format 1 had no list of its arrays."""
+LABEL = "stored"
+"""The entry of an archive that holds its key and lists its arrays."""
+SEAL = hashlib.sha256().digest_size
+
+
+def place_of_result(folder: Path, module: str, solve: str, key: str) -> Path:
+    """Where a result belongs. module, solve: names for its file; key: everything that determines it."""
+    return folder / f"{module.rpartition('.')[2]}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
+
+
+def load_result(path: Path, key: str) -> Outcome | None:
+    """The result that was stored under this key, or None where no intact one is there.
+
+    Raises ValueError for a link or a folder in its place.
+    """
+    if is_there(path) and not is_plain(path):
+        raise ValueError(f"a stored result must be a plain file, got {path}: move that away")
+    try:
+        contents = read_plain(path)
+        archive, seal = contents[:-SEAL], contents[-SEAL:]
+        if hashlib.sha256(archive).digest() != seal:
+            return None
+        with np.load(io.BytesIO(archive), allow_pickle=False) as entries:
+            arrays = {name: entries[name] for name in entries.files}
+        label = json.loads(str(arrays.pop(LABEL)))
+    # a valid seal may have been put behind any bytes
+    except Exception:
+        return None
+    return arrays if label == {"format": FORMAT, "key": key, "arrays": _array_types(arrays)} else None
+
+
+def save_result(path: Path, key: str, outcome: Outcome) -> None:
+    """Store a result, whole or not at all. Raises OSError, which names the place."""
+    arrays = {name: np.asarray(value) for name, value in outcome.items()}
+    label = json.dumps({"format": FORMAT, "key": key, "arrays": _array_types(arrays)}, sort_keys=True)
+    archive = io.BytesIO()
+    np.savez(archive, **{LABEL: np.array(label), **arrays})  # type: ignore[arg-type]  # stubs take a name for a flag
+    contents = archive.getvalue()
+    # readers of archives ignore a seal at the end
+    write_whole(path, contents + hashlib.sha256(contents).digest())
+
+
+def forget_results(stored: Mapping[Path, str]) -> None:
+    """Remove the results at these places, each by its key, and nothing else that is there."""
+    for path, key in stored.items():
+        if is_plain(path) and load_result(path, key) is not None:
+            path.unlink()
+
+
+def _array_types(arrays: Outcome) -> dict[str, list[object]]:
+    """Data type and shape of each array, as the label of an archive has them."""
+    return {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}

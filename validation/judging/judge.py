@@ -11,8 +11,8 @@ from typing import Any, TypeVar
 
 from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.analysis.contents import as_csv, as_json, condition_key, conditions_in_json, finite_or_none
-from validation.analysis.evidence import table_of
-from validation.analysis.verdict import Verdict
+from validation.analysis.escapes import printable
+from validation.analysis.evidence import Verdict, table_of
 from validation.judging.judgement import (
     WITHOUT_NUMBER,
     Conditions,
@@ -30,7 +30,6 @@ from validation.judging.kinds.own import ErrorOfCall, costs_of
 from validation.judging.replies import raised
 from validation.judging.worker import Called, visited
 from validation.report.folder import JUDGEMENT, Folder
-from validation.scenes.printable import printable
 
 OF_SOLVER = "validation.judging.solvers.checks:judged"
 """Of a contact solver; it imports all solvers."""

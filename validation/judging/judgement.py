@@ -8,10 +8,9 @@ from operator import attrgetter
 from typing import NamedTuple, TypeVar
 
 from validation.advice.tolerance import decibels
-from validation.analysis.evidence import Number, Role, where_text
+from validation.analysis.evidence import Number, Role, Verdict, verdict_of, where_text
 from validation.analysis.number_text import deviation_text
 from validation.analysis.ranges import VerdictRange, verdict_ranges
-from validation.analysis.verdict import Verdict, verdict_of
 
 RATIO, LEVEL, DEVIATION = "-", "dB", "over the mean"
 """Units, by which a number is compared with its reference."""

@@ -9,10 +9,9 @@ from itertools import starmap
 from typing import TYPE_CHECKING
 
 from validation.advice.tolerance import Tolerance
-from validation.analysis.evidence import where_text
+from validation.analysis.evidence import OF_NUMBERS, Verdict, where_text
 from validation.analysis.number_text import deviation_text, interval_text, place_value
 from validation.analysis.ranges import VerdictRange
-from validation.analysis.verdict import OF_NUMBERS, Verdict
 from validation.judging.judgement import (
     LEVEL,
     JudgedNumber,
@@ -26,10 +25,10 @@ from validation.judging.judgement import (
     within_ranges,
 )
 from validation.judging.kinds import rolling, stiffness
-from validation.judging.kinds.held_out_solves import held_out
+from validation.judging.kinds.held_out_points import held_out
 from validation.judging.kinds.laws import in_words, table_14_1
 from validation.judging.kinds.own import MAIN
-from validation.judging.kinds.sweeps import SWEPT
+from validation.judging.kinds.properties import SWEPT
 from validation.judging.solvers.properties import Symptom
 
 if TYPE_CHECKING:

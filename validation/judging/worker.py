@@ -14,11 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from validation.engine.workers import ONE_THREAD
-from validation.judging.channel import Channel, ForeignBytesError
 from validation.judging.registry import KINDS, Caller, Failed, FloatArray, Offered
 from validation.judging.replies import SHOWN, Reply, called, has_forked, number
 from validation.judging.source_files import digest_of_all, digest_of_bytes, file_of, in_order
-from validation.judging.worker_main import MUTE, SERVING
+from validation.judging.worker_main import MUTE, SERVING, Channel, ForeignBytesError
 from validation.judging.worker_main import OthersError as OthersError
 
 SECONDS, LOADING = 10.0, 60.0

@@ -9,8 +9,7 @@ from validation.advice.compare import Comparison
 from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate
 from validation.analysis.evidence import Table
-from validation.analysis.sound import a_weighting
-from validation.analysis.spectra import LONGEST, NominalBands
+from validation.analysis.spectra import LONGEST, NominalBands, a_weighting
 from validation.engine.engine import FloatArray
 from validation.railway.problems.rail_models import RailModel, rail_quantity
 from validation.railway.scenes.level_files import MICROMETRE

@@ -10,7 +10,7 @@ from validation.analysis.case import Profile
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell, Whose
 from validation.analysis.quantity import quantity_with
-from validation.analysis.sound import Sound, Sounds
+from validation.analysis.spectra import Sound, Sounds
 from validation.engine.files import name_in, place_in
 from validation.engine.former_names import value_of
 from validation.report.contents import CASES, TIMED

@@ -14,11 +14,11 @@ from typing import Any
 from validation.analysis.case import Case, Profile
 from validation.analysis.claim_text import listed
 from validation.analysis.contents import as_json
+from validation.analysis.escapes import printable
 from validation.engine.engine import LOCAL, Engine
 from validation.engine.sources import version_of
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section
-from validation.scenes.printable import printable
 
 WORDS = tuple(
     f"validation.analysis.{name}" for name in ("case", "chart", "claim_text", "claims", "number_text", "study")

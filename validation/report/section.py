@@ -8,6 +8,7 @@ from typing import Any
 from validation.analysis.case import Case, Profile
 from validation.analysis.contents import conditions_in_json, plain_name
 from validation.analysis.evidence import (
+    OF_NUMBERS,
     ClaimStatus,
     Evidence,
     JudgedClaim,
@@ -17,7 +18,6 @@ from validation.analysis.evidence import (
     VerdictCell,
     Whose,
 )
-from validation.analysis.verdict import OF_NUMBERS
 from validation.engine.former_names import with_former_keys
 
 PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from mdr.checks import positive
+from validation.analysis.escapes import shortened
 from validation.scenes.description import COUNTED, body_pairs, roughness_pairs, waves_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured_heights import SQUARE, MeasuredHeights, check_covers
-from validation.scenes.printable import shortened
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.scene import PRESSED, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from mdr.checks import finite, positive
-from validation.scenes.printable import quoted
+from validation.analysis.escapes import quoted
 from validation.scenes.reader import nonblank_text, table, values
 from validation.scenes.units import in_unit
 

@@ -15,7 +15,7 @@ import numpy as np
 from mdr.checks import positive
 from validation.engine.engine import FloatArray
 from validation.engine.street import modules_in
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation.method import FEWEST, Prepared, Resolution, Result, Solve
 from validation.simulation.model_names import BEM, MODELS
 

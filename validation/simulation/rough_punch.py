@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike
 import bem3d
 import mdr
 from bem3d.checks import Spectrum
-from validation.engine.convergence import FEWEST, NotConvergedError
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import FEWEST, NotConvergedError, random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.surface import draw_surface, refined

@@ -11,7 +11,7 @@ import scipy
 
 import mdr
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.roughness import Roughness
 from validation.simulation.contact_laws import HertzLaw, SpringsLaw
 from validation.simulation.free_vibration import SPEED, WHEEL

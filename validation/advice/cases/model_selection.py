@@ -15,12 +15,12 @@ from validation.advice.calibration_scenes import OTHER_SEED, QUANTITIES
 from validation.advice.cases.edge_scenes import MEASURED, OF_HOUSES, PUNCH, ROLLING, SPHERE, WHEEL, edge_scene
 from validation.advice.cases.random_scenes import KINDS, random_scene
 from validation.advice.hierarchy import REFUSALS, select_model, try_to_solve, unsolved
-from validation.advice.quantities import models_of, quantity_of
+from validation.advice.models_of_scene import models_of, quantity_of
 from validation.advice.scene_model import Answer, SceneModel, Shared
 from validation.advice.tolerance import relative
-from validation.analysis.study import Outcomes
-from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.analysis.case import Outcomes
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.scene import Scene

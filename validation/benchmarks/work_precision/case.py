@@ -11,7 +11,6 @@ from validation.analysis.statistics import Interval
 from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import pareto
-from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS, HOURS, FigureCost, figure_cost
 from validation.benchmarks.work_precision.pareto import (
     FASTER,
@@ -20,18 +19,23 @@ from validation.benchmarks.work_precision.pareto import (
     cheapest_as_close,
     faster,
     front,
+    points,
     seconds,
     time_over,
 )
-from validation.benchmarks.work_precision.pressed import (
+from validation.benchmarks.work_precision.problem import (
+    ELEMENTS,
     PUNCH_GRIDS,
     SPHERE_GRIDS,
+    SPRINGS,
+    ChartProblem,
+    Grids,
     PunchProblem,
+    RollingProblem,
     RoughPunchProblem,
     SphereProblem,
+    measure,
 )
-from validation.benchmarks.work_precision.problem import ELEMENTS, SPRINGS, ChartProblem, Grids, measure
-from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Engine, Outcomes, Quantity, Series, Study
 
 

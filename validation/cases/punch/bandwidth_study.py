@@ -7,6 +7,7 @@ from functools import partial
 from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Place
 from validation.analysis.number_text import per_cent
+from validation.analysis.quantity import RELATIVE_DEVIATION
 from validation.analysis.series import Margin
 from validation.analysis.statistics import DECIBEL, combined
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study
@@ -14,7 +15,6 @@ from validation.cases.punch.bandwidth import AREA, ROLL_OFF, Band, Bandwidth, De
 from validation.cases.punch.ensembles import DEVIATION, FORCE, OVER
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
-from validation.simulation.quantities import RELATIVE_DEVIATION
 from validation.simulation.rough_punch import require_converged
 
 BANDWIDTH, H = "q_max / q_min", "H"

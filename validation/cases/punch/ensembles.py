@@ -8,11 +8,11 @@ from typing import TypeVar
 import numpy as np
 
 from validation.analysis.evidence import Table
+from validation.analysis.quantity import MEAN_STIFFNESS, RELATIVE_DEVIATION
 from validation.analysis.series import Estimates, Ranges, spans
 from validation.analysis.statistics import DECIBEL, FloatArray, Statistic, jackknifed
 from validation.case import Engine, Series
 from validation.engine.engine import Outcome
-from validation.simulation.quantities import MEAN_STIFFNESS, RELATIVE_DEVIATION
 from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,

@@ -12,16 +12,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.evidence import Place, Role
+from validation.analysis.quantity import MEAN_FORCE, RMS_FORCE
 from validation.analysis.series import REPEATABLE, Counted, Estimates, Margin
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, jackknifed
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.engine.convergence import require_realisations
+from validation.engine.realisations import require_realisations
 from validation.simulation import rolling_strip
 from validation.simulation.model_names import FILTER_3D, SPRINGS_ROLLING
-from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
-from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks, level_1d, level_3d, over_bands, strip_levels
-from validation.simulation.roughness_from_force import by_filter_3d, by_mean_filter
+from validation.simulation.rolling_strip import (
+    HERTZ,
+    RoughStrip,
+    Tracks,
+    by_filter_3d,
+    by_mean_filter,
+    level_1d,
+    level_3d,
+    over_bands,
+    strip_levels,
+)
 from validation.simulation.track_spectrum import (
     INPUT_NAMES,
     INPUT_SPECTRA,

@@ -6,6 +6,7 @@ from validation.analysis.claim_text import THREE_D_DIFFER
 from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Whose
 from validation.analysis.number_text import decibels, decibels_rms, per_cent
+from validation.analysis.quantity import MEAN_FORCE, RMS_FORCE
 from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Study
 from validation.cases.rolling.force_spectrum import (
     BEM,
@@ -34,8 +35,7 @@ from validation.cases.rolling.force_spectrum import (
 )
 from validation.simulation import model_needed
 from validation.simulation.model_names import SPRINGS_ROLLING
-from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
-from validation.simulation.roughness_from_force import ASSUMED
+from validation.simulation.rolling_strip import ASSUMED
 from validation.simulation.track_spectrum import INPUT_NAMES
 
 RMS = "rms of "

@@ -15,12 +15,11 @@ from validation.analysis.statistics import Estimate, FloatArray, jackknifed, rat
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.wheel import features
 from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
-from validation.theory.rolling import RollingWheel
-from validation.theory.wheel import acceleration_over_force, break_exponent, over_the_resonance
+from validation.theory.rolling import RollingWheel, acceleration_over_force, break_exponent, over_the_resonance
 
 SHORT = replace(TABLE, distance=0.16)
 MIN_JUMP, MIN_PERIODS = 4.0, 5.0

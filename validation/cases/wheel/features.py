@@ -17,7 +17,6 @@ from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation import wheel_features
 from validation.theory import rolling as rolling_theory
-from validation.theory import wheel as wheel_theory
 
 TABLE = load_scene_with_track("table_14_1")
 Spectrum1D = Callable[[FloatArray], FloatArray]
@@ -89,8 +88,8 @@ def linear_force_3d(scene: RollingScene, q: FloatArray) -> FloatArray:
 def accelerated_by(force: FloatArray, scene: RollingScene, omega: FloatArray) -> FloatArray:
     """A of the wheel on its contact spring under a force of that C_F."""
     same = {name: getattr(scene, name) for name in ("eigenfrequency", "mass", "damping")}
-    resonator = wheel_theory.acceleration_over_force(omega, **same)
-    return np.asarray(wheel_theory.over_frequency(force, speed=scene.rolling_speed) * resonator)
+    resonator = rolling_theory.acceleration_over_force(omega, **same)
+    return np.asarray(rolling_theory.over_frequency(force, speed=scene.rolling_speed) * resonator)
 
 
 def roughness(scene: RollingScene) -> Spectrum1D:
@@ -129,7 +128,7 @@ def expected(spectrum: Spectrum) -> dict[str, float]:
     floor = float(np.mean(spectrum.jumps**2)) / spectrum.duration
     period = scene.oscillation_period
     # sin^2 in the mean: (14.14) through the resonator, far above the resonance
-    power = wheel_theory.over_frequency(
+    power = rolling_theory.over_frequency(
         rolling_theory.mean_force_spectrum_1d(
             scene.cutoff / scene.rolling_speed, roughness(scene), modulus=scene.modulus
         ),

@@ -13,8 +13,8 @@ from validation.analysis.spectra import band_levels, one_third_octaves, record_s
 from validation.analysis.statistics import FloatArray
 from validation.case import SERIAL, Engine, Outcomes
 from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d, linear_spectrum
-from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import Outcome
+from validation.engine.realisations import FEWEST, NotConvergedError, require_realisations
 from validation.scenes.rolling import RollingScene
 from validation.simulation import model_names as named
 from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum

@@ -13,12 +13,12 @@ from validation.analysis.spectra import band_levels, band_means, one_third_octav
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.wheel import features
 from validation.cases.wheel.features import TABLE, decibels
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.simulation import wheel_features
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
-from validation.theory import wheel as wheel_theory
+from validation.theory import rolling as wheel_theory
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,13 +8,13 @@ from pathlib import Path
 
 from validation.advice.tolerance import tolerance_of
 from validation.analysis.contents import as_json, folder_names
+from validation.analysis.escapes import printable
 from validation.engine.files import write_output
 from validation.judging.judge import Judgement, judged, numbers_as_csv
 from validation.judging.source_files import GROUP, installed
 from validation.judging.worker import Called, visited
 from validation.report.commands.arguments import Exit, add_options, check_places
 from validation.report.folder import JUDGEMENT, Folder
-from validation.scenes.printable import printable
 
 
 def describe(judging: argparse.ArgumentParser) -> None:

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from validation.analysis.evidence import Verdict
 from validation.analysis.statistics import Estimate, FloatArray
-from validation.analysis.verdict import Verdict
 from validation.judging.judgement import AGAIN, LEVEL, RATIO, Conditions, JudgedNumber, judged_number, missing_number
 from validation.judging.kinds.references import Reference
 from validation.judging.registry import Caller, Failed, Offered
@@ -168,10 +168,10 @@ def change(before: FloatArray, after: FloatArray) -> float:
 T = TypeVar("T")
 JUDGES: Mapping[str, str] = {
     "stiffness_model": "stiffness:judged",
-    "stiffness_of_surface": "surfaces:judged",
+    "stiffness_of_surface": "stiffness:judged_surfaces",
     "force_spectrum": "rolling:judged_spectrum",
     "rolling_model": "rolling:judged",
-    "contact_filter": "filters:judged",
+    "contact_filter": "rolling:judged_filter",
     "profile_spectrum": "profiles:judged",
     "contact_law": "laws:judged",
 }
@@ -240,7 +240,7 @@ def rule(quantity: str, where: Conditions, answer: Answer, grid: float = 0.0, wi
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedNumber]:
     """Of a reduced model: by its judge, at held-out points, by rules of scaling, past these scenes, and once again."""
     recorded = Recorded(model)
-    for place in (JUDGES[model.kind], "held_out_points:judged", "scaling:judged", "sweeps:swept"):
+    for place in (JUDGES[model.kind], "held_out_points:judged", "properties:judged_scaling", "properties:swept"):
         judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{place}")
         yield from (finding.judged(tolerance) for finding in judge(recorded))
     calls = float(recorded.count)

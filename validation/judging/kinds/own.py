@@ -10,10 +10,9 @@ import mdr
 from validation.analysis.statistics import FloatArray
 from validation.judging import registry as offered
 from validation.judging.judgement import JudgedNumber
-from validation.judging.kinds.filters import FILTER
 from validation.judging.kinds.judge import points_of
 from validation.judging.kinds.references import Reference, reference_rows
-from validation.judging.kinds.rolling import LEVEL
+from validation.judging.kinds.rolling import FILTER, LEVEL
 from validation.judging.kinds.stiffness import MEAN
 from validation.judging.registry import Failed, Offered
 from validation.judging.worker import Called

@@ -12,7 +12,7 @@ import numpy as np
 
 import mdr
 from validation.analysis.statistics import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.judging.kinds.judge import Finding, LostError, answer_of, attempted, rule
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.rolling import WheelAtApproach, of_density

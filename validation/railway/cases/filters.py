@@ -14,8 +14,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from validation.analysis.sound import a_weighting, energy_sum
-from validation.analysis.spectra import NominalBands
+from validation.analysis.spectra import NominalBands, a_weighting, energy_sum
 from validation.analysis.statistics import FloatArray
 from validation.railway.problems.equivalent_displacement import geike_power, transfer_of
 from validation.railway.problems.rail_strip import (

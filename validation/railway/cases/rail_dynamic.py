@@ -16,14 +16,14 @@ from validation.analysis.series import REPEATABLE, Estimates, masked
 from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 from validation.railway.cases.filters import COUNTED, OFFSET, RailWheel, counted, linear_filter, scene_of
 from validation.railway.problems.rail_strip import RailGround, RailStrip, line_of
 from validation.railway.problems.wheel_on_rail import WheelOnRail, roll_and_move
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.rail_impedance import FreeBeam
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
-from validation.theory.wheel import contact_resonance
+from validation.theory.rolling import contact_resonance
 
 FINE, COARSE = "fine", "coarse"
 Key = tuple[float, str, str, str]

@@ -12,12 +12,20 @@ from itertools import pairwise
 import numpy as np
 
 from validation.analysis.evidence import Table, table_of
-from validation.analysis.sound import a_weighting, common_full_scale, filtered, powers_of_blocks
-from validation.analysis.spectra import KILOHERTZ, Bands, levels, waves
+from validation.analysis.spectra import (
+    KILOHERTZ,
+    Bands,
+    a_weighting,
+    common_full_scale,
+    filtered,
+    levels,
+    powers_of_blocks,
+    waves,
+)
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.case import SERIAL, Engine, Outcomes
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.railway.problems import rail_sound as sounds
 from validation.railway.problems.rail_sound import GEIKE, ISOTROPIC, HeldWheel
 from validation.railway.problems.rail_strip import RailStrip, StatedAcross, strip_bands, strip_of

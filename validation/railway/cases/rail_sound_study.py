@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from validation.analysis.number_text import tenth
-from validation.analysis.sound import Sound, Sounds
+from validation.analysis.spectra import Sound, Sounds
 from validation.case import Case, Chapter, Chart, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import rail_sound
 from validation.railway.cases.rail_sound import SOUNDING, RailSound, RailSoundResult

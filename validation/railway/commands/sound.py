@@ -6,6 +6,7 @@ import textwrap
 from pathlib import Path
 
 from validation.analysis.contents import as_csv, as_json
+from validation.analysis.escapes import printable
 from validation.analysis.number_text import tenth
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
@@ -17,7 +18,6 @@ from validation.report.folder import SOUND, Folder
 from validation.report.sounds import wavs
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
-from validation.scenes.printable import printable
 
 WHOLE = 2.0
 """Seconds that a file lasts at the least: shorter strips are repeated."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.spectra import NominalBands
 from validation.engine.engine import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.railway.scenes.rail import RailScene
 from validation.railway.theory.transverse_structure import (
     IsotropicGround,

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import finite
+from validation.analysis.escapes import printable, quoted
 from validation.analysis.spectra import NominalBands, nominal_wavelength
 from validation.analysis.statistics import FloatArray
 from validation.railway.theory.transverse_structure import LineSpectrum
-from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.number_table import NumberTable
-from validation.scenes.printable import printable, quoted
 from validation.scenes.reader import DECIBELS, Reader, errors_of, table, value_of_one_key, values
 from validation.scenes.table_files import FORM, read_scene_table, read_table, sentence_about
+from validation.scenes.text_dialect import RADIANS, WAVENUMBERS
 from validation.scenes.units import UNITS, metres_of
 
 MICROMETRE = 1e-6

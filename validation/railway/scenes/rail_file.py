@@ -4,6 +4,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.analysis.escapes import shortened
 from validation.engine.former_names import with_current_keys
 from validation.railway.scenes.level_files import levels_in
 from validation.railway.scenes.measured_lines import MeasuredLines, lines_in
@@ -12,7 +13,6 @@ from validation.railway.scenes.transverse_profile import TransverseProfile, both
 from validation.scenes.material import material_of
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import heights_of
-from validation.scenes.printable import shortened
 from validation.scenes.reader import POSITIVE, Reader, errors_of, table, value_of_one_key, values
 from validation.scenes.units import in_unit, quantity
 

@@ -4,13 +4,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from validation.analysis.claim_text import listed
-from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
+from validation.analysis.evidence import OF_NUMBERS, Evidence, Number, Place, Verdict, placed
 from validation.analysis.number_text import half_open_text, level_as_factor, level_in_per_cent
 from validation.analysis.ranges import VerdictRange, ends_of, verdict_ranges
-from validation.analysis.verdict import OF_NUMBERS
-from validation.report.answers.question import Alternative, Printed, Question
+from validation.report.answers.question import TIMES, Alternative, Printed, Question
 from validation.report.answers.questions import QUESTIONS
-from validation.report.answers.seconds import TIMES
 from validation.report.answers.strip import EARLIER_WORDS, Cell, Source, span
 from validation.report.section import Section
 

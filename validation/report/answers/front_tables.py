@@ -8,14 +8,11 @@ from validation.analysis.evidence import Evidence, Verdict, placed
 from validation.analysis.number_text import short
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.pareto import FASTER
-from validation.benchmarks.work_precision.pressed import RoughPunchProblem
-from validation.benchmarks.work_precision.problem import SPRINGS
-from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.benchmarks.work_precision.problem import SPRINGS, RollingProblem, RoughPunchProblem
 from validation.cases.limits.limits import SUMMARY
 from validation.cases.punch.ensembles import FORCE
 from validation.cases.rolling.force_spectrum import SLOPE
-from validation.report.answers.question import BEM
-from validation.report.answers.seconds import ENOUGH, TIMES
+from validation.report.answers.question import BEM, ENOUGH, TIMES
 from validation.report.section import Section
 from validation.scenes.description import slope_ratio
 

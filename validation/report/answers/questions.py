@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import partial
 
 from validation.analysis.number_text import level_as_factor, level_in_decibels, level_in_per_cent
+from validation.analysis.quantity import RMS_FORCE
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
 from validation.cases.punch import interface
@@ -13,12 +14,19 @@ from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL
 from validation.cases.wheel.half_space_study import WHEEL
 from validation.engine.street import objects_of_houses
-from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question
-from validation.report.answers.seconds import a_surface, a_track, a_wheel, an_integral
+from validation.report.answers.question import (
+    BEM,
+    INTEGRAL,
+    Alternative,
+    Question,
+    a_surface,
+    a_track,
+    a_wheel,
+    an_integral,
+)
 from validation.report.answers.strip import Source
 from validation.report.contents import CASES
 from validation.simulation.model_names import SPRINGS_ROLLING
-from validation.simulation.quantities import RMS_FORCE
 
 LINEAR_3D = wheel.LINEAR_3D
 PRESSED = Alternative(BEM, timed=a_surface())

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 
 from validation.analysis.claim_text import alone_text, conditions_text, listed
 from validation.analysis.claims import Choice
-from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
+from validation.analysis.evidence import OF_NUMBERS, Evidence, Number, Place, Verdict, placed
 from validation.analysis.number_text import interval_text
 from validation.analysis.ranges import SeparatingCondition, by_place, common_verdict, ends_of, separating_conditions
-from validation.analysis.verdict import OF_NUMBERS
 
 EARLIER_WORDS = {Verdict.WITHIN: "yes", Verdict.OUTSIDE: "no", Verdict.INCONCLUSIVE: "open"}
 """Of a place of a strip, in results.json of schema 1; schema 2 keeps them for one release."""

@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
+from validation.analysis.escapes import printable
 from validation.analysis.evidence import Table
 from validation.benchmarks.peers import solvers_with
 from validation.engine.engine import LOCAL
@@ -14,7 +15,6 @@ from validation.report.formats import in_four_digits
 from validation.report.section import Section, total_of
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene_with_track
-from validation.scenes.printable import printable
 from validation.scenes.rolling import RollingScene
 
 

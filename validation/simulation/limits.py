@@ -1,23 +1,94 @@
-"""Probes of springs past their limits: pressed, under a wheel on rough tracks, and with a mass in time."""
+"""Both methods past their limits: probes, each swept along a parameter.
+
+A probe hands over the error at each value, and what the software says there. Boundary elements press spheres,
+a = d = R = 1 and E* = 1, and periodic waves; springs are pressed, roll on rough tracks, and carry a mass in time.
+"""
 
 import math
-from functools import partial
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial, wraps
+from typing import TypeVar, cast
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+import bem3d
 import mdr
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
 from validation.simulation.integrators import VELOCITY_VERLET
 from validation.simulation.motion import simulate
-from validation.simulation.probing import Point, Values, along, answered, message_of, swept
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strip
 from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.simulation.spring_tracks import FINE, STRIDES, LiftOff, RoughTrack, coarsen, filtered, lift_off
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance, response
+
+Values = tuple[float, ...]
+Point = tuple[float, str]
+"""The error at one value, infinite where there is no answer, and the message of the software, empty without one."""
+T = TypeVar("T")
+REFUSALS = (ValueError, ArithmeticError, bem3d.ConvergenceError)
+
+
+def swept(
+    values: ArrayLike, error: ArrayLike, messages: Sequence[str], *, measured: ArrayLike = 1.0, **also: ArrayLike
+) -> Outcome:
+    """The outcome of a sweep through a limit, sorted by ascending values. error: of one limit, or a row for each of
+    several; measured: what predicted thresholds take from the solve; also: further columns, or numbers."""
+    x = np.asarray(values, dtype=np.float64)
+    order = np.argsort(x)
+    return {
+        "values": x[order],
+        "error": np.atleast_2d(np.asarray(error, dtype=np.float64))[:, order],
+        "measured": np.atleast_1d(np.asarray(measured, dtype=np.float64)),
+        # a stored outcome keeps words as well as numbers
+        "messages": cast(FloatArray, np.asarray(messages, dtype=np.str_)[order]),
+        **{name: np.asarray(value, dtype=np.float64) for name, value in also.items()},
+    }
+
+
+def along(point: Callable[..., tuple[float, float, str]]) -> Callable[..., Outcome]:
+    """A probe by that of one value, which gives the value to be shown, the error, and the message."""
+
+    @wraps(point)
+    def probe(values: Sequence[float], **settings: int) -> Outcome:
+        return swept(*zip(*(point(value, **settings) for value in values), strict=True))
+
+    return probe
+
+
+def recorded(call: Callable[[], T]) -> tuple[T | None, str]:
+    """The answer of a call, None where it refuses, and its message: its warnings, or the reason of its refusal.
+
+    Warnings about units are left out: sweeps of spikes and pits give them on either side of a threshold.
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            answer = call()
+        except REFUSALS as error:
+            return None, f"{type(error).__name__}: {error}"
+    relevant = [w for w in caught if not issubclass(w.category, (mdr.SpringUnitsWarning, bem3d.UnitsWarning))]
+    return answer, "; ".join(f"{w.category.__name__}: {getattr(w.message, 'detail', w.message)}" for w in relevant)
+
+
+def answered(call: Callable[[], T]) -> tuple[T, str]:
+    """Answer and message of a call that must not refuse, as of `recorded`. ArithmeticError has the reason."""
+    answer, message = recorded(call)
+    if answer is None:
+        raise ArithmeticError(message)
+    return answer, message
+
+
+def message_of(call: Callable[[], object]) -> str:
+    """Warnings or refusal of a call, as of `recorded`; empty without any."""
+    return recorded(call)[1]
+
 
 HURST = 0.7
 GEIKE_TRACK, UNIT_TRACK = 1, 2
@@ -186,3 +257,149 @@ def higher_tracks(heights: Values, *, wheels: int, seed: int, waves: int = 6) ->
     imbalance = [float(np.abs(outcome["imbalance"]).max()) for outcome in outcomes]
     airborne = [float(outcome["airborne"].mean()) for outcome in outcomes]
     return swept(heights, airborne, messages, measured=heights[0] / outcomes[0]["pull"].max(), imbalance=imbalance)
+
+
+HERTZ = 4 / 3
+LATTICE = 3.900265
+"""-4 zeta(1/2) beta(1/2): the sum of 1 / |n| over a square lattice but for its origin, less its mean; Borwein et al.,
+Lattice Sums Then and Now, chapter 1."""
+LONE_CELL = math.pi / (4 * math.asinh(1.0))
+"""k / (E* dx) of one square cell, by Love."""
+RESIDUAL = 1e-6
+"""The default of `bem3d.solve`."""
+
+
+def sphere(cells: int, spacing: float, place: float = 0.0) -> FloatArray:
+    """Gap of the sphere over a grid, so many cells aside of its middle along both axes."""
+    x = (np.arange(cells) - (cells - 1) / 2 - place) * spacing
+    return np.asarray((x[:, np.newaxis] ** 2 + x**2) / 2)
+
+
+def half_space(cells: int, spacing: float, *, periodic: bool = False) -> bem3d.HalfSpace:
+    """A half-space of cells x cells, E* = 1."""
+    return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=1.0, periodic=periodic)
+
+
+@along
+def few_cells(cells: float, places: int = 8) -> tuple[float, float, str]:
+    """Stiffness on a / dx cells against Hertz, rms over places on a cell along its diagonal; messages of the first."""
+    side, at = 2 * math.ceil(1.3 * cells) + 4, (np.arange(places) + 0.5) / (2 * places)
+    gaps = [sphere(side, 1 / cells, float(place)) for place in at]
+    solved = [answered(partial(bem3d.solve, half_space(side, 1 / cells), gap, approach=1.0)) for gap in gaps]
+    error = math.sqrt(sum((contact.stiffness() / 2 - 1) ** 2 / places for contact, _ in solved))
+    return math.pi * cells**2, error, solved[0][1]
+
+
+@along
+def images(period: int, fine: int = 4) -> tuple[float, float, str]:
+    """Approach under the force of Hertz in a period L / a, against the same cells in free space."""
+    cells, dx = period * fine, 1 / fine
+    press = partial(bem3d.solve, gap=sphere(cells, dx), force=HERTZ)
+    imaged, message = answered(partial(press, half_space(cells, dx, periodic=True)))
+    return period, abs(imaged.approach / press(half_space(cells, dx)).approach - 1), message
+
+
+@along
+def grid_sides(side: int, finer: int = 8) -> tuple[float, float, str]:
+    """Force on grids of fewer and fewer cells a side, against a wide grid."""
+    # an odd grid has a cell below the middle of the sphere, an even one has none
+    dx, wide = 1 / finer, 4 * finer + side % 2
+    true = bem3d.solve(half_space(wide, dx), sphere(wide, dx), approach=1.0).force
+    contact, message = answered(partial(bem3d.solve, half_space(side, dx), sphere(side, dx), approach=1.0))
+    return side * dx / 2, abs(contact.force / true - 1), message
+
+
+@along
+def strip_widths(width: int, finer: int = 8) -> tuple[float, float, str]:
+    """Force on smooth strips as wide as those grids, rolled over for two cells."""
+    dx, length = 1 / finer, 4 * finer
+
+    def roll(columns: int) -> float:
+        flat = np.zeros((length, columns))
+        rolled = bem3d.roll(flat, spacing=dx, radius=1.0, modulus=1.0, approach=1.0, positions=2)
+        return float(rolled.force[-1])
+
+    true, (force, message) = roll(length), recorded(partial(roll, width))
+    return width * dx / 2, math.inf if force is None else abs(force / true - 1), message
+
+
+def spikes(heights: Values, *, finer: int = 8) -> Outcome:
+    """Force with a cell in the middle that is so many d too high; measured: E* / k of that cell alone, over d."""
+    dx, side = 1 / finer, 2 * math.ceil(1.5 * finer) + 1
+    body, gap, middle = half_space(side, dx), sphere(side, dx), side // 2
+    true = bem3d.solve(body, gap, approach=1.0).force
+
+    def point(height: float) -> Point:
+        spiked = gap.copy()
+        spiked[middle, middle] -= height
+        contact, message = answered(partial(bem3d.solve, body, spiked, approach=1.0, tolerance=RESIDUAL))
+        return abs(contact.force / true - 1), message
+
+    return swept(heights, *zip(*map(point, heights), strict=True), measured=1 / (LONE_CELL * dx))
+
+
+def rough_grids(cells: tuple[int, ...], *, resolved: int, seed: int, finest: int = 512, force: float = 1.5) -> Outcome:
+    """Contact area of periodic rough surfaces under Fbar = F / (E* h L) against the finest grid, by cells to the
+    shortest wave; messages are those of drawing the surface."""
+    r, surfaces = PunchRoughness(hurst=0.7, waves=(1, 8), seed=seed), range(resolved)
+    true = [_area(r, finest, i, force) for i in surfaces]
+
+    def point(n: int) -> Point:
+        draw = partial(bem3d.rough_surface, r.spectrum.c2d, shape=(n, n), spacing=1 / n, rms=r.height)
+        message = message_of(partial(draw, rng=random_generator(r.seed)))
+        squares = sum((_area(r, n, i, force) / true[i] - 1) ** 2 for i in surfaces)
+        return math.sqrt(squares / len(true)), message
+
+    return swept(np.array(cells) / r.waves[1], *zip(*map(point, cells), strict=True))
+
+
+def _area(roughness: PunchRoughness, cells: int, realisation: int, force: float) -> float:
+    """True contact area under the force; infinitely wrong where the grid cannot carry the surface."""
+    height, _ = recorded(partial(roughness.surface, cells, realisation))
+    if height is None:
+        return math.inf
+    press = partial(bem3d.solve, half_space(cells, 1 / cells, periodic=True), -height)
+    return answered(partial(press, force=force * roughness.height, tolerance=1e-5))[0].area
+
+
+def _wave(cells: int) -> tuple[bem3d.HalfSpace, FloatArray, FloatArray]:
+    """A cosine wave of unit length and amplitude in line contact: half-space, gap and x."""
+    x = (np.arange(cells) + 0.5) / cells - 0.5
+    body = bem3d.HalfSpace(shape=(cells, 1), spacing=1 / cells, modulus=1.0, periodic=True)
+    return body, 2 * np.sin(np.pi * x[:, np.newaxis]) ** 2, x
+
+
+@along
+def full_contact(load: float, cells: int = 128) -> tuple[float, float, str]:
+    """Force at the approach that a mean pressure over p* has; from full contact on that is the mean gap."""
+    body, gap, x = _wave(cells)
+    force = load * math.pi * body.cell_area * x.size
+    reference, _ = answered(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
+    approach = reference.approach if load < 1 else float(gap.mean())
+    contact, message = recorded(partial(bem3d.solve, body, gap, approach=approach, tolerance=RESIDUAL))
+    return load, math.inf if contact is None else abs(contact.force / force - 1), message
+
+
+@along
+def huge_forces(load: float, cells: int = 128) -> tuple[float, float, str]:
+    """Waves of the pressure in full contact under a mean pressure over p*, rms over p*."""
+    body, gap, x = _wave(cells)
+    press = partial(bem3d.solve, body, gap, force=load * math.pi * body.cell_area * x.size, tolerance=RESIDUAL)
+    contact, _ = answered(partial(press, raise_on_failure=False))
+    waves = contact.pressure[:, 0] / math.pi - load - np.cos(2 * np.pi * x)
+    return load, float(np.sqrt(np.mean(waves**2))), message_of(press)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SweepProblem:
+    """probe: a function of this module; values: of its parameter; settings: of it."""
+
+    probe: str
+    values: tuple[float, ...]
+    settings: tuple[tuple[str, float | str], ...] = ()
+
+
+def sweep(problem: SweepProblem) -> Outcome:
+    """What the probe finds at each value, as `swept` has it."""
+    outcome: Outcome = globals()[problem.probe](problem.values, **dict(problem.settings))
+    return outcome

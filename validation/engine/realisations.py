@@ -1,8 +1,19 @@
-"""NotConvergedError: a solve that has not converged is never a success."""
+"""Realisations of a rough surface: the random numbers of each, and how many must have converged."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
+
+import numpy as np
+
+
+def random_generator(seed: int, *key: int) -> np.random.Generator:
+    """The random numbers of one realisation, independent of all others and of the process that draws them.
+
+    seed: of the whole run, zero or positive; key: address of the realisation, whole numbers.
+    """
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=key)))
+
 
 FEWEST = 3
 """Converged realisations that an error bar needs."""
