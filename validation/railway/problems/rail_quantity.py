@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.spectra import NominalBands
+from validation.analysis.spectra import NominalBands, assessed_bands
 from validation.engine.engine import FloatArray
 from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
@@ -165,7 +165,7 @@ class RailQuantity:
 
     def counted(self, a3: FloatArray) -> NDArray[np.bool_]:
         """Bands in which the tolerance counts."""
-        return a3 > COUNTED
+        return assessed_bands(a3, COUNTED)
 
     def amplitude(self, a3: FloatArray) -> FloatArray:
         """Of A3 in dB: the ratio of amplitudes, or the root mean square of the equivalent roughness [m]."""
