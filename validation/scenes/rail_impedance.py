@@ -5,6 +5,7 @@ is rigid. Its static deflection is no motion: only the change of the force moves
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import finite, positive
+from validation.analysis.escapes import shortened
 
 BODIES = 8
 """That stand for a free beam."""
@@ -108,6 +110,34 @@ class FreeBeam:
 
 
 RailImpedance = RailDashpot | FreeBeam
+
+
+def read_impedance(impedance: object, beam: Mapping[str, float]) -> RailImpedance | None:
+    """The value of `rail.impedance` of a scene file; None of a rigid rail.
+
+    impedance: "rigid", "free beam", a number in N s/m, or a table of dashpot and mass; beam: the keys of a beam that
+    are given. Raises ValueError that names the key.
+    """
+    name, keys = "rail.impedance", ("bending_stiffness", "mass_per_length")
+    if impedance != "free beam" and beam:
+        raise ValueError(f'rail.{next(iter(beam))} belongs to rail.impedance = "free beam", got {shortened(impedance)}')
+    if impedance == "free beam":
+        if missing := [f"rail.{key}" for key in keys if key not in beam]:
+            raise ValueError(
+                f'{" and ".join(missing)} must be given with {name} = "free beam", got none, as of 60E1: '
+                "bending_stiffness = 6.38e6 in N m², mass_per_length = 60.2 in kg/m"
+            )
+        return FreeBeam(**beam)
+    if impedance == "rigid":
+        return None
+    of_table = impedance if isinstance(impedance, dict) else {"dashpot": impedance}
+    numbers = all(isinstance(value, int | float) and not isinstance(value, bool) for value in of_table.values())
+    if not (numbers and {"dashpot"} <= set(of_table) <= {"dashpot", "mass"}):
+        raise ValueError(
+            f'{name} must be "rigid", "free beam", a dashpot in N s/m or {{ dashpot = 1.5e5, mass = 30 }} in N s/m and '
+            f"kg, got {shortened(impedance)}"
+        )
+    return RailDashpot(**of_table)
 
 
 def impedance_of_bodies(bodies: tuple[RailBody, ...], omega: ArrayLike) -> NDArray[np.complex128]:

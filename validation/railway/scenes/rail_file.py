@@ -13,6 +13,7 @@ from validation.railway.scenes.transverse_profile import TransverseProfile, both
 from validation.scenes.material import material_of
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import heights_of
+from validation.scenes.rail_impedance import read_impedance
 from validation.scenes.reader import POSITIVE, Reader, errors_of, table, value_of_one_key, values
 from validation.scenes.units import in_unit, quantity
 
@@ -60,6 +61,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "lateral_structure": value_of_one_key(rail, "rail", ("lateral_structure", "lateral_ratio"), least=0),
         "notes": (*of_load, *of_roughness, *notes),
         **{key: wheel[key] for key in ("speed", "mass", "damping") if key in wheel},
+        "impedance": read_impedance(rail.get("impedance", "rigid"), {key: rail[key] for key in BEAM if key in rail}),
     }
     of_rail = value_of_one_key(rail, "rail", ("crown_radius", "profile"), least=0)
     of_wheel = value_of_one_key(wheel, "wheel", ("transverse_radius", "profile"), least=0)
@@ -155,5 +157,13 @@ class RailReader:
 
 LOADED = values("radius", "diameter", "transverse_radius", "load", "axle_load", "wheels_per_axle")
 WHEEL = LOADED | values("speed", "mass", "damping") | {"offset": partial(quantity, dimension="length")}
-RAIL = {**values("crown_radius"), "lateral_structure": _across, **values("lateral_ratio")}
+BEAM: dict[str, Reader] = {"bending_stiffness": POSITIVE, "mass_per_length": POSITIVE}
+"""N m^2 and kg/m, of a free beam."""
+RAIL: dict[str, Reader] = {
+    **values("crown_radius"),
+    "lateral_structure": _across,
+    **values("lateral_ratio"),
+    "impedance": lambda name, value: value,
+    **BEAM,
+}
 """How each value of a scene file is read."""
