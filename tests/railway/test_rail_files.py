@@ -314,7 +314,7 @@ def test_a_rail_has_the_impedance_of_its_file(tmp_path, rail, impedance):
         ("impedance = { dashpot = true }", "rail.impedance must be"),
         ("impedance = -1.0", "rail.impedance.dashpot"),
         ('impedance = "free beam"\nmass_per_length = 60', "rail.bending_stiffness must be given with"),
-        ("mass_per_length = 60", 'rail.mass_per_length belongs to rail.impedance = "free beam", got "rigid"'),
+        ("mass_per_length = 60", 'rail.mass_per_length belongs to rail.impedance = "free beam"'),
     ],
 )
 def test_impedances_of_files_that_are_refused(tmp_path, rail, named):
@@ -323,7 +323,7 @@ def test_impedances_of_files_that_are_refused(tmp_path, rail, named):
 
 
 def test_an_impedance_without_a_mass_is_refused():
-    with pytest.raises(ValueError, match="rail.impedance needs a mass"):
+    with pytest.raises(ValueError, match=r"rail\.impedance needs a mass"):
         replace(load_scene("rail"), impedance=RailDashpot(dashpot=1.5e5))
 
 
@@ -350,6 +350,5 @@ def test_the_force_in_motion_is_that_of_receptances_in_series(tmp_path):
     assert math.isinf(rigid.force_in_motion) and any("leaves the rail" in note for note in rigid.diagnose())
     damped = replace(rigid, damping=0.02)
     assert damped.force_in_motion > 3 * scene.force_in_motion
-    assert math.isnan(load_scene("rail").force_in_motion) and "wheel in motion" not in dict(
-        load_scene("rail").describe()
-    )
+    still = load_scene("rail")
+    assert math.isnan(still.force_in_motion) and "wheel in motion" not in dict(still.describe())
