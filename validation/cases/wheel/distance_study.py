@@ -7,9 +7,9 @@ from validation.analysis.chart import by_model
 from validation.analysis.evidence import Whose
 from validation.analysis.number_text import share
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
-from validation.cases.wheel import distance, features
+from validation.cases.wheel import distance, ensembles
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
-from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
+from validation.cases.wheel.ensembles import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
 from validation.simulation import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
@@ -50,7 +50,7 @@ def notes(result: Outcomes) -> Sequence[str]:
     case, bands, book = result.case, regions_of(result.case.scene), distance.RECORDS[BOOK]
     scene = case.ensemble(distance.STEADY).scene
     integral = distance.theory_of(scene).over_resonance(
-        features.roughness(scene), q_max=scene.cutoff / scene.rolling_speed
+        ensembles.roughness(scene), q_max=scene.cutoff / scene.rolling_speed
     )
     (first, plateau), linear = (
         [book.of(result, bands[region], model).mean() for region in (FIRST, PLATEAU)] for model in (SPRINGS, LINEAR)

@@ -251,7 +251,7 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(
-            whose=Whose.FIELD,
+            whose=Whose.LITERATURE,
             along=OFFSET,
             printed=decibels_rms,
             either=({"quantity": RMS + FORCE}, {"quantity": RMS + MOVING, "where": {RAIL: BEAM}}),
