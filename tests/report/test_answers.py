@@ -24,7 +24,7 @@ from validation.cases.wheel.ensembles import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.railway.cases import across, rolled_filters
 from validation.railway.cases.filters import OFFSET
-from validation.railway.cases.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
+from validation.railway.cases.rail_dynamic import BEAM, BESIDE, RAIL, RMS, SPRINGS_OVER_BEM
 from validation.report.answers import first_screen, strip
 from validation.report.answers import question as seconds
 from validation.report.answers.first_screen import answered_questions, from_to, plain
@@ -244,7 +244,7 @@ def test_an_alternative_on_an_axis_of_its_own_says_which():
     found = {"h/d": [0.1], "h' a/d": [0.37]}
     wheel = section_of("wheel_3d", [failing], Table("wheel", found))
     moving = {"quantity": RMS + BESIDE, "model": SPRINGS_OVER_BEM, "tolerance": 1.0}
-    where = {OFFSET: 0.0, "f [Hz]": (100.0, 900.0)}
+    where = {RAIL: BEAM, OFFSET: 0.0, "f [Hz]": (100.0, 900.0)}
     rail = section_of("rail_dynamic", [at((0.1, 1.0), 0.2, **moving | {"where": where})])
     row = row_of("dynamic-wheel", wheel, rail, timed())
     assert words_of(row) == ["outside"]
@@ -298,6 +298,12 @@ INSTEAD = {
     ),
     ("contact-filter", "linear, ellipse"): ("across", "A3 over that of boundary elements", "linear, ellipse"),
     ("contact-filter", "spring bed"): ("across", "A3 over that of boundary elements", "spring bed wider by 2/√3"),
+    ("rolling-spectrum", "springs, rolling spectrum"): (
+        *("rolling", "rms of level of an octave", "springs, rolling spectrum over boundary elements"),
+    ),
+    ("dynamic-wheel", "springs, rolling spectrum"): (
+        *("wheel_3d", "level", "springs, rolling spectrum over boundary elements"),
+    ),
     ("dynamic-wheel", "linear filter, 3D"): ("wheel_3d", "level", "linear filter, 3D over boundary elements"),
     ("dynamic-wheel", "on a rail"): (
         "rail_dynamic",

@@ -16,6 +16,7 @@ from validation.advice.hierarchy import ALIKE, Candidate, bias
 from validation.advice.sound_power import ContactForce
 from validation.advice.tolerance import decibels, percentage
 from validation.analysis.evidence import Table, table_of
+from validation.analysis.spectra import assessed_bands
 from validation.engine.engine import FloatArray
 
 TOGETHER = "both errors together: of the models the sum, of grid and sample the root of the sum of squares"
@@ -168,7 +169,7 @@ def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndar
 def counted_bands(comparison: Comparison, candidate: Candidate) -> NDArray[np.bool_]:
     """Mask of the bands in which the tolerance counts: of a rail, those of which more than next to nothing is left."""
     level = comparison.a3_of(candidate) if comparison.roughness.size else np.zeros(comparison.value_of(candidate).size)
-    return np.asarray(level > comparison.scene_quantity.counted_above)
+    return assessed_bands(level, comparison.scene_quantity.counted_above)
 
 
 def shown_models(comparison: Comparison) -> list[str]:

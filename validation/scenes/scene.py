@@ -19,8 +19,8 @@ class SceneQuantity:
     key: in scripts, on the command line and in files; unit: of its amplitude; reference: of its decibels, in SI units;
     in_bands: whether it is a level in each one-third octave, else one number; of_motion: whether the wheel has to move;
     by_worst_band: whether a tolerance holds in each band that counts, else over the root mean square of all;
-    counted_above: level above which a band counts [dB]; averaged_itself: whether realisations have the mean of their
-    values, else that of their logarithms.
+    counted_above: level above which a band counts, up to the first that is not [dB]; averaged_itself: whether
+    realisations have the mean of their values, else that of their logarithms.
     """
 
     key: str

@@ -26,6 +26,7 @@ from validation.report.answers.question import (
 )
 from validation.report.answers.strip import Source
 from validation.report.contents import CASES
+from validation.simulation.model_names import SPRINGS_ROLLING
 
 LINEAR_3D = wheel.LINEAR_3D
 PRESSED = Alternative(BEM, timed=a_surface())
@@ -80,6 +81,7 @@ OF_THE_CORE = (
         level_in_decibels,
         (
             IN_3D(of_rolling(quantity=rolling.RMS_LEVEL, model=LINEAR)),
+            Alternative(SPRINGS_ROLLING, of_rolling(quantity=rolling.RMS_LEVEL, model=SPRINGS_ROLLING + rolling.OVER)),
             Alternative(reduced.PRINTED[reduced.COARSEST], of_strips(model=reduced.COARSEST), timed=a_track(4)),
             JUDGE,
         ),
@@ -91,6 +93,7 @@ OF_THE_CORE = (
         level_in_decibels,
         (
             Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
+            Alternative(SPRINGS_ROLLING, of_wheel(model=wheel.OVER_BEM[wheel.ROLLING])),
             Alternative(f"{BEM} in the time loop", timed=a_wheel),
         ),
         of_scene=(WHEEL, rolling.SLOPE),
