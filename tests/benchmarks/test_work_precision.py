@@ -15,7 +15,7 @@ from validation.benchmarks.timing import FINISHED, TimedProblem
 from validation.benchmarks.work_precision import figure_cost
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.case import CASE, WITHIN, WITHOUT, Precision, run
-from validation.benchmarks.work_precision.pareto import TOLERANCES
+from validation.benchmarks.work_precision.pareto import CHEAPEST_SETTING, TOLERANCES
 from validation.benchmarks.work_precision.problem import (
     BEM,
     CLOSED,
@@ -131,8 +131,15 @@ def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
 @pytest.mark.slow
 def test_every_quantity_has_a_cheapest_method_of_each_tolerance(found):
     assert found.unconverged == () and {number.role for number in found.numbers} == {"finding"}
-    assert len(found.table(WITHIN).columns) == 2 + len(TOLERANCES)
-    assert len(found.table(WITHIN)["scene"]) == 8
+    settings, shown = found.table(CHEAPEST_SETTING), found.table(WITHIN)
+    charts = set(zip(settings["scene"], settings["quantity"], settings["unit"], strict=True))
+    assert len(charts) == 8 and {unit for _, _, unit in charts} == set(TOLERANCES)
+    elements = settings.where(method="boundary elements")
+    assert len(elements["scene"]) == sum(len(TOLERANCES[unit]) for _, _, unit in charts)
+    assert (elements["time from [s]"] <= elements["time [s]"]).all()
+    assert np.isfinite(settings["error"]).all()
+    # who has no setting is shown once
+    assert len(charts) < len(shown["scene"]) <= len(settings["scene"])
 
 
 @pytest.mark.slow
@@ -216,7 +223,7 @@ def test_means_over_phases_are_those_of_many_linear_realisations():
 def test_command_line(result, tmp_path, monkeypatch, capsys):
     """A page, tables on the terminal, and times that are kept apart from results."""
     results = run_command(CASE, result, tmp_path, monkeypatch)
-    assert "scene: fractal punch; quantity: mean stiffness; within 30 %: " in capsys.readouterr().out
+    assert "scene: fractal punch; quantity: mean stiffness; tolerance: 10 %; " in capsys.readouterr().out
     assert results["settings"]["sphere"]["grids"]["cells"] == [4, 8, 16]
     for file in ("figures/precision.svg", "data/precision-points.csv"):
         assert (tmp_path / file).exists()

@@ -45,6 +45,8 @@ CLOSED, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_3D
 MDR, MDR_ROLLING = model_names.SPRINGS, model_names.SPRINGS_ROLLING
 BEM, LOOSE, EXTRAPOLATED = "BEM, finer cells", "BEM, looser residual", "BEM, extrapolated"
 SPRINGS, ELEMENTS = (MDR, MDR_ROLLING), (BEM, LOOSE, EXTRAPOLATED)
+BEM_METHOD = model_names.BEM
+"""All of these as one method, whose settings they are."""
 ROUNDING = 1e-12
 """What a closed form leaves open."""
 
@@ -328,7 +330,7 @@ class PunchProblem(ExactProblem):
         return scalars(stiffness=point.stiffness)
 
 
-ROUGH_GRIDS = Grids(cells=(24, 32, 64, 128), fixed=64)
+ROUGH_GRIDS = Grids(cells=(96, 128, 192, 256, 512), fixed=128)
 
 
 def log_deviation(values: Values) -> FloatArray:
@@ -352,12 +354,12 @@ class RoughPunchProblem(PressedProblem):
         ChartQuantity(name=RELATIVE_DEVIATION, log=log_deviation, needs=("stiffness",)),
     )
     hurst: float = 0.7
-    waves: int = 15
+    waves: int = 64
     force: float = 0.1
     realisations: int = 16
     profiles: int = 120
     grids: Grids = ROUGH_GRIDS
-    springs: tuple[float, ...] = (24, 32, 64, 128, 256, 512)
+    springs: tuple[float, ...] = (96, 128, 256, 512, 1024)
     seed: int = 150
 
     @property
@@ -448,8 +450,8 @@ class RollingProblem(ChartProblem):
 
     @property
     def bands(self) -> Bands:
-        """One-third octaves within the band of the roughness."""
-        return Bands.around(np.pi, 1.0, self.last).on(self.length)
+        """Octaves from the first one-third octave with waves of the roughness on, as those of the force spectrum."""
+        return Bands(Bands.around(np.pi, 2 ** (-1 / 3), self.last).edges[::3]).on(self.length)
 
     @property
     def rough_strip(self) -> RoughStrip:
