@@ -1,6 +1,7 @@
 """What scripts of other people rely on: names of `validation`, the result of a comparison, the command beside it."""
 
 import ast
+import csv
 import subprocess
 import sys
 from functools import cache
@@ -57,7 +58,7 @@ def test_importing_the_face_imports_nothing_else():
 def test_a_number_comes_in_si_units_with_its_relative_error():
     result = validation.compare(SPHERE, tolerance=0.01)
     assert (result.quantity, result.model, result.met, result.unit) == ("stiffness", "closed form", True, "N/m")
-    assert result.value == pytest.approx([SPHERE.stiffness])
+    assert type(result.value) is float and result.value == pytest.approx(SPHERE.stiffness)
     assert (result.error, result.wavenumbers.size) == (0.0, 0)
     (first,) = (model for model in result.models if model.name == "closed form")
     assert (first.status, first.error, first.reason) == ("accepted", 0.0, "exact for a smooth body")
@@ -95,7 +96,7 @@ def comparison(status, *, failed="", quantity="stiffness"):
 )
 def test_a_missed_tolerance_leaves_the_best_value():
     result = comparison("not accurate enough")
-    assert (result.met, result.model, result.value.tolist(), result.error) == (False, "model", [2.0], 0.3)
+    assert (result.met, result.model, result.value, result.error) == (False, "model", 2.0, 0.3)
     assert (result.models[0].status, result.models[0].cost) == ("not accurate enough", 2.0)
 
 
@@ -133,6 +134,30 @@ def test_the_command_prints_the_summary(capsys):
     words = ["compare", "rolling_wheel", "--quantity", SPECTRUM["quantity"], "--tolerance", "30%", "--verbose"]
     assert main(words) == 0
     assert capsys.readouterr().out == f"{validation.summary(spectrum())}\n"
+
+
+@catches("a table whose rows have the half-width of another part of the error").at(
+    "validation.advice.compare.Comparison.error_parts_of",
+    lambda result, candidate: dict.fromkeys(("model", "grid", "sample"), 7.0),
+)
+def test_a_table_has_the_numbers_with_their_error_and_the_scene():
+    result = spectrum()
+    rows = result.table()
+    assert {type(cell) for row in rows for cell in row.values()} <= {float, int, str, bool, type(None)}
+    assert [row["model"] for row in rows if row["selected"]] == [result.model] * result.wavenumbers.size
+    assert {row["model"] for row in rows} == {candidate.name for candidate in result.models}
+    selected = {name: np.array([row[name] for row in rows if row["selected"]]) for name in rows[0]}
+    assert selected["value"] == pytest.approx(result.value)
+    assert selected["wavelength_mm"].tolist() == result.wavelength_mm.tolist()
+    parts = [selected[f"error_{name}"] for name in ("model", "grid", "sample")]
+    assert np.isclose(parts[0] + np.hypot(*parts[1:]), selected["error"]).all()
+    scene = result.scene
+    asked = {"scene": scene.name, "scene.load": scene.load, "scene.ground.rms": scene.ground.rms, "tolerance": 0.3}
+    assert all(row | asked == row and row["status"] for row in rows)
+    assert all(row["seconds"] > 0 for row in rows if row["solved"])
+    written = [row for row in csv.DictReader(validation.to_csv(result).splitlines()) if row["selected"] == "True"]
+    assert [float(row["error_model"]) for row in written] == pytest.approx(parts[0])
+    assert {float(row["scene.load"]) for row in written} == {scene.load}
 
 
 def test_a_case_runs_from_its_settings():

@@ -35,7 +35,7 @@ def test_a_sweep_is_one_table_with_a_row_a_value(tmp_path, capsys):
     alone = validation.compare(validation.load_scene("rolling_wheel"))
     objects = json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
     assert [found["scene"] for found in objects] == names
-    assert objects[0]["value"][0] < objects[1]["value"][0] == pytest.approx(alone.value[0])
+    assert objects[0]["value"][0] < objects[1]["value"][0] == pytest.approx(alone.value)
     rows = list(csv.DictReader((tmp_path / "out.csv").read_text(encoding="utf-8").splitlines()))
     assert [row["scene"] for row in rows] == names
     told = [(row["swept"], float(row["swept_value"]), row["swept_unit"]) for row in rows]

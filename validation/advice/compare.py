@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
+from pkgutil import resolve_name
 from typing import Any
 
 import numpy as np
@@ -87,9 +88,15 @@ def beyond_elasticity(scene: Scene) -> str:
     )
 
 
+ROWS = "validation.advice.table:rows_of"
+"""Imported where it is asked for, since a table is of comparisons."""
 MOST_REALISATIONS = 100_000
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""
+
+
+NumberOrLevels = Any
+"""A float of one number, an array of levels: a type checker cannot tell which, as of what NumPy's functions return."""
 
 
 @dataclass(frozen=True)
@@ -113,9 +120,9 @@ class Comparison:
         The value of a sweep, of which this is one scene.
     tolerance : Tolerance
         What was asked, with its unit.
-    value : ndarray
-        One number in SI units; for "force-spectrum" and "acceleration" a level in each one-third octave, in dB re 1 N
-        and 1 m/s^2. NaN where no model has an answer. Read-only, as all arrays of a comparison.
+    value : float or ndarray
+        One number in SI units; of a quantity in bands, as "force-spectrum", the level in each one-third octave, in dB
+        re 1 N or 1 m/s^2. NaN where no model has an answer. Read-only, as all arrays of a comparison.
     error : float
         Half-width of the 95 % interval: relative, in dB for levels. For levels it is that of all bands together.
     unit : str
@@ -168,31 +175,54 @@ class Comparison:
         return Tolerance(self.selection.tolerance, self.in_decibels)
 
     @property
-    def value(self) -> FloatArray:
-        best = self.selection.best
-        return kept(np.full(max(1, self.wavenumbers.size), math.nan)) if best is None else self.value_of(best)
+    def value(self) -> NumberOrLevels:
+        if self.selection.best is not None:
+            return self.value_of(self.selection.best)
+        return self._number_or_levels(np.full(max(1, self.wavenumbers.size), math.nan))
 
-    def value_of(self, candidate: Candidate) -> FloatArray:
-        """The value that a solved model gives, in the unit of ``value``."""
-        assert candidate.answer is not None  # the docstring asks for a solved model
-        value = candidate.answer.value
-        return kept(20 * np.log10(value / self.scene_quantity.reference) if self.is_level else value)
+    def table(self) -> list[dict[str, object]]:
+        """All models as rows: a flat dict a number or a band, and one of each model that was not solved.
 
-    def errors_of(self, candidate: Candidate) -> FloatArray:
+        Returns
+        -------
+        list of dict
+            Keys scene, parameters of it in SI units (``"scene.load"``), quantity, tolerance (relative); wavelength_mm,
+            frequency_hz, nominal_hz; value, low, high, error and its parts error_model, error_grid, error_sample (half-
+            widths of 95 %), unit; model, status, selected, reason, predicted_error, cost_s, seconds and others, NaN
+            where there is no number. A data frame is ``pandas.DataFrame(comparison.table())``.
+
+        Examples
+        --------
+        >>> (row,) = validation.compare(validation.load_scene("sphere")).table()
+        >>> row["model"], row["status"], row["unit"], row["scene.load"]
+        ('closed form', 'accepted', 'N/m', 4905.0)
+        """
+        rows: list[dict[str, object]] = resolve_name(ROWS)(self)
+        return rows
+
+    def value_of(self, candidate: Candidate) -> NumberOrLevels:
+        """The value that a solved model gives, in the unit of ``value``. Raises ValueError for one without a solve."""
+        value = candidate.solved_answer.value
+        return self._number_or_levels(20 * np.log10(value / self.scene_quantity.reference) if self.is_level else value)
+
+    def errors_of(self, candidate: Candidate) -> NumberOrLevels:
         """Half-widths of 95 % of a solved model, one for each number, in dB for levels and else in ``unit``."""
-        answer = candidate.answer
-        has_band_errors = answer is not None and answer.band_errors
-        return kept(
-            answer.error_in_bands if answer and has_band_errors else self._half_widths(candidate, candidate.error)
+        answer = candidate.solved_answer
+        return self._number_or_levels(
+            answer.error_in_bands if answer.band_errors else self._half_widths(candidate, candidate.error)
         )
 
-    def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:
+    def error_parts_of(self, candidate: Candidate) -> dict[str, NumberOrLevels]:
         """What model, grid and sample leave of `errors_of`, by their names; none of a model that was not solved."""
         if (answer := candidate.answer) is None:
             return {}
         parts = {"model": answer.model, "grid": answer.grid, "sample": answer.sample}
         half_widths = answer.band_errors or {name: self._half_widths(candidate, part) for name, part in parts.items()}
-        return {name: kept(half) for name, half in half_widths.items()}
+        return {name: self._number_or_levels(half) for name, half in half_widths.items()}
+
+    def _number_or_levels(self, values: FloatArray) -> NumberOrLevels:
+        """One number as a float, levels as a read-only array."""
+        return kept(values) if self.is_level else float(values.item())
 
     @property
     def roughness(self) -> FloatArray:
@@ -201,7 +231,7 @@ class Comparison:
 
     def a3_of(self, candidate: Candidate) -> FloatArray:
         """Contact filter of a model of a rail that was solved, whichever quantity was asked [dB]."""
-        value = self.value_of(candidate)
+        value = np.asarray(self.value_of(candidate))
         return kept(value - self.roughness) if self.quantity == "equivalent-roughness" else value
 
     def seconds_of(self, candidate: Candidate) -> float:
@@ -210,8 +240,8 @@ class Comparison:
 
     def _half_widths(self, candidate: Candidate, error: float) -> FloatArray:
         """Half-widths of each number, from a relative error of all numbers together."""
-        value = self.value_of(candidate)
-        return np.full(value.shape, decibels(error)) if self.is_level else error * np.abs(value)
+        value = np.asarray(self.value_of(candidate))
+        return np.full(value.shape, decibels(error)) if self.is_level else np.asarray(error * np.abs(value))
 
     @property
     def error(self) -> float:

@@ -348,9 +348,9 @@ def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
     if best is None:
         result = ""
     elif comparison.is_level:
-        result = force.shown if (force := comparison.force) else f"{comparison.value.size} bands"
+        result = force.shown if (force := comparison.force) else f"{np.size(comparison.value)} bands"
     else:
-        (value,), (half,) = comparison.value, comparison.errors_of(best)
+        value, half = float(comparison.value), float(comparison.errors_of(best))
         result = f"{scaled(float(value), float(half))} {comparison.unit}"
     return {
         "scene": f"{scene}: {comparison.quantity}" if several else scene,
@@ -445,7 +445,7 @@ def _value_sentence(quantities: Sequence[Comparison], answer: Answer) -> str:
         return f"{name} = {scaled(value, value * answer.error)} {comparison.unit} by {comparison.model}{of}"
     force = comparison.force
     weighted = f", contact force {force.shown}" if force else ""
-    return f"{name} by {comparison.model}: {comparison.value.size} bands{of}{weighted}"
+    return f"{name} by {comparison.model}: {np.size(comparison.value)} bands{of}{weighted}"
 
 
 def _error_sentence(comparison: Comparison, answer: Answer) -> str:

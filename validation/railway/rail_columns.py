@@ -30,7 +30,7 @@ def contact_force(scene: RailScene, comparison: Comparison) -> ContactForce | No
         return None
     return ContactForce(
         levels={name: of_force + a3 for name, a3 in filters.items() if a3 is not None},
-        half_width=comparison.errors_of(chosen),
+        half_width=np.asarray(comparison.errors_of(chosen)),
         stiffness=stiffness,
         speed=scene.speed,
         span=bands.span,
