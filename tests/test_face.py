@@ -1,7 +1,9 @@
 """What scripts of other people rely on: names of `validation`, the result of a comparison, the command beside it."""
 
 import ast
+import copy
 import csv
+import pickle
 import subprocess
 import sys
 from functools import cache
@@ -18,6 +20,7 @@ from validation.advice.hierarchy import Candidate, Selection
 from validation.advice.scene_model import Answer
 from validation.engine.street import HOUSES
 from validation.scenes.rolling import RollingQuantity
+from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, ErrorEstimate
 
 SPHERE = validation.load_scene("sphere")
@@ -33,7 +36,7 @@ def spectrum():
 def test_every_name_is_there(name):
     assert getattr(validation, name) is not None
     assert name in dir(validation)
-    assert validation.MODULES[name].split(".")[0] in {"report", "benchmarks", "scenes", *HOUSES}
+    assert validation.MODULES[name].split(".")[0] in {"analysis", "report", "benchmarks", "scenes", *HOUSES}
 
 
 def test_the_stub_says_the_same():
@@ -41,6 +44,10 @@ def test_the_stub_says_the_same():
     imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
     said = {name.asname: node.module.removeprefix("validation.") for node in imports for name in node.names}
     assert said == validation.MODULES
+
+
+def test_completion_shows_the_face_alone():
+    assert {name for name in dir(validation) if not name.startswith("__")} == set(validation.MODULES)
 
 
 def test_an_unknown_name_is_an_attribute_error():
@@ -158,6 +165,31 @@ def test_a_table_has_the_numbers_with_their_error_and_the_scene():
     written = [row for row in csv.DictReader(validation.to_csv(result).splitlines()) if row["selected"] == "True"]
     assert [float(row["error_model"]) for row in written] == pytest.approx(parts[0])
     assert {float(row["scene.load"]) for row in written} == {scene.load}
+
+
+@pytest.mark.parametrize("through", [copy.copy, copy.deepcopy, lambda result: pickle.loads(pickle.dumps(result))])
+@catches("a model that is pickled without its grid", copy.deepcopy).at(
+    "validation.advice.scene_model.SceneModel.__getstate__",
+    lambda model: {**vars(model), "shared": {}, "resolution": Resolution()},
+)
+def test_a_comparison_is_copied_and_pickled_whole(through):
+    result = validation.compare(validation.load_scene("rough_punch"), models=["fit", "mdr"])
+    other = through(result)
+    assert validation.to_json(other) == validation.to_json(result)
+    assert validation.summary(other) == validation.summary(result)
+    assert [model.model.resolution for model in other.models] == [model.model.resolution for model in result.models]
+    assert pickle.loads(pickle.dumps(other)).model == result.model
+    assert not any(model.model.shared for model in other.models) or through is copy.copy
+
+
+def test_a_judgement_is_copied_and_pickled_whole():
+    @validation.stiffness_model("flat punch")
+    def flat(side, modulus):
+        return 1.1523 * modulus * side
+
+    judgement = validation.judge(flat)
+    for other in (copy.copy(judgement), copy.deepcopy(judgement), pickle.loads(pickle.dumps(judgement))):
+        assert (other.as_dict(), other.summary()) == (judgement.as_dict(), judgement.summary())
 
 
 def test_a_case_runs_from_its_settings():

@@ -99,7 +99,7 @@ NumberOrLevels = Any
 """A float of one number, an array of levels: a type checker cannot tell which, as of what NumPy's functions return."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Comparison:
     """Result of `compare`: a quantity of a scene, its error, and what became of each model.
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -62,7 +62,7 @@ line = offered.contact_filter(LINEAR_ON_LINE)(lambda k_x, a_x: np.sinc(k_x * a_x
 bed = offered.contact_filter(BED)(lambda k_x, k_y, a_x, a_y: spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y)))
 geike = offered.profile_spectrum("Geike's rule")(lambda q, roughness: math.pi * q * roughness.c2d(q))
 trace = offered.profile_spectrum("line trace")(lambda q, roughness: roughness.line(q))
-OWN: Sequence[Offered] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
+OWN: Sequence[Offered[..., Any]] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
 
 
 class ErrorOfCall(NamedTuple):
