@@ -3,6 +3,7 @@
 import ast
 import copy
 import csv
+import inspect
 import pickle
 import subprocess
 import sys
@@ -18,6 +19,7 @@ from validation.__main__ import main
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
 from validation.advice.scene_model import Answer
+from validation.advice.tolerance import Tolerance
 from validation.engine.street import HOUSES
 from validation.scenes.rolling import RollingQuantity
 from validation.simulation.method import Resolution
@@ -119,15 +121,45 @@ def test_without_an_answer_there_is_no_number(quantity):
     ("arguments", "error", "sentence"),
     [
         (("sphere",), TypeError, "scene must be what load_scene returns, got str"),
-        ((SPHERE, "force-rms"), ValueError, "quantity must be one of stiffness for scene 'Smooth sphere'"),
-        ((SPHERE, None, 0.0), ValueError, "tolerance must be"),
-        ((SPHERE, None, 0.1, -1), ValueError, "seed must be at least 0, got -1"),
-        ((SPHERE, None, 0.1, 0.5), TypeError, "seed must be a whole number, got 0.5"),
+        (
+            (SPHERE, {"quantity": "force-rms"}),
+            ValueError,
+            "quantity must be one of stiffness for scene 'Smooth sphere'",
+        ),
+        ((SPHERE, 0.0), ValueError, "tolerance must be"),
+        ((SPHERE, "10 dBa"), ValueError, "tolerance must be as .* got '10 dBa'"),
+        ((SPHERE, {"seed": -1}), ValueError, "seed must be at least 0, got -1"),
+        ((SPHERE, {"seed": 0.5}), TypeError, "seed must be a whole number, got 0.5"),
+        ((SPHERE, "10 %", 1), TypeError, "compare takes scene and tolerance by place, .* got 3 places"),
     ],
 )
 def test_bad_input_is_refused_in_one_sentence(arguments, error, sentence):
+    places = [argument for argument in arguments if not isinstance(argument, dict)]
+    named = next((argument for argument in arguments if isinstance(argument, dict)), {})
     with pytest.raises(error, match=sentence):
-        validation.compare(*arguments)
+        validation.compare(*places, **named)
+
+
+@catches("a tolerance in the second place that is not read").at(
+    "validation.advice.compare.tolerance_of", lambda tolerance: Tolerance(0.1)
+)
+def test_a_tolerance_stands_in_the_second_place():
+    scene = validation.load_scene("rolling_wheel")
+    for text, relative in (("3 %", 0.03), ("1 dB", 10 ** (1 / 20) - 1), (0.2, 0.2)):
+        result = validation.compare(scene, text, quantity="force-spectrum", models="linear filter, 3D")
+        assert result.tolerance.relative == pytest.approx(relative) and result.quantity == "force-spectrum"
+    assert list(inspect.signature(validation.compare).parameters)[:3] == ["scene", "tolerance", "quantity"]
+
+
+def test_a_quantity_in_the_second_place_works_for_one_release():
+    scene, models = validation.load_scene("rolling_wheel"), "linear filter, 1D"
+    for places in (("force-spectrum",), ("force-spectrum", "1 dB"), ("force-spectrum", 0.2, 3), (None, 0.2)):
+        named = dict(zip(("quantity", "tolerance", "seed"), places, strict=False))
+        with pytest.warns(FutureWarning, match="compare takes a tolerance in second place now"):
+            earlier = validation.compare(scene, *places, models=models)
+        assert validation.to_json(earlier) == validation.to_json(validation.compare(scene, **named, models=models))
+    with pytest.warns(FutureWarning), pytest.raises(ValueError, match="quantity must be one of force-rms"):
+        validation.compare(scene, "loudness")
 
 
 @pytest.mark.parametrize("name", ["nowhere", 5])

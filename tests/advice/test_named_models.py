@@ -22,7 +22,7 @@ SPECTRUM = "rolling_wheel --quantity force-spectrum"
 
 
 def solved(scene, quantity, tolerance, models):
-    found = validation.compare(validation.load_scene(scene), quantity, tolerance, models=models)
+    found = validation.compare(validation.load_scene(scene), quantity=quantity, tolerance=tolerance, models=models)
     assert max(map(len, summary(found).splitlines())) <= WIDTH
     return found, [one.name for one in found.selection.solved]
 
@@ -87,7 +87,9 @@ def test_a_model_out_of_its_range_is_solved_without_an_error():
     assert "no model has a known error" in summary(found)
     assert all(math.isfinite(value) for one in found.selection.solved for value in np.atleast_1d(found.value_of(one)))
     # waves that excite the resonance: the level grows with the distance, and belongs to no model
-    endless = validation.compare(load_varied("table_14_1", "wheel.speed", "2 m/s"), "acceleration", solve_all=True)
+    endless = validation.compare(
+        load_varied("table_14_1", "wheel.speed", "2 m/s"), quantity="acceleration", solve_all=True
+    )
     assert not endless.selection.solved and {one.status for one in endless.models} == {"out of range"}
 
 

@@ -97,7 +97,7 @@ def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
     engine = Engine(store=tmp_path)
     solved, stored = (compare_scenes(problems, engine) for _ in range(2))
     for one, *found in zip(problems, solved, stored, strict=True):
-        alone = validation.compare(one.scene, *one.quantities, one.tolerance, models=one.models or None)
+        alone = validation.compare(one.scene, one.tolerance, quantity=one.quantities[0], models=one.models or None)
         for comparison in (replace(each, timed=False) for each in found):
             assert (summary(comparison), validation.to_json(comparison)) == (summary(alone), validation.to_json(alone))
 

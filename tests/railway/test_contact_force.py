@@ -150,7 +150,7 @@ def test_bands_without_an_answer_are_left_out_of_both_sums():
 
 
 def test_the_closed_filters_stand_beside_the_chosen_one_unasked():
-    comparison = validation.compare(RAIL, "contact-filter", "1 dB")
+    comparison = validation.compare(RAIL, quantity="contact-filter", tolerance="1 dB")
     assert [candidate.name for candidate in comparison.selection.solved] == ["linear, ellipse"]
     names = ["linear, ellipse", "linear, on the line", "Remington", "spring bed (DPRS), linear"]
     assert list(comparison.force.levels) == names
@@ -164,7 +164,9 @@ def test_text_json_and_csv_have_the_same_table():
     """L_eq = L_r + A3, whichever quantity is asked."""
     filters, keys = [], ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
     for quantity in ("contact-filter", "equivalent-roughness"):
-        comparison = validation.compare(RAIL, quantity, "1 dB", models=["linear, ellipse", "Remington"])
+        comparison = validation.compare(
+            RAIL, quantity=quantity, tolerance="1 dB", models=["linear, ellipse", "Remington"]
+        )
         written = json.loads(validation.to_json(comparison))
         lists = [np.array(written[key]) for key in keys]
         assert lists[0].tolist() == list(RAIL.levels.levels)

@@ -1,5 +1,6 @@
 """One scene: the quantity, the cheapest model that is accurate enough, and why."""
 
+import functools
 import hashlib
 import json
 import math
@@ -9,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pkgutil import resolve_name
-from typing import Any
+from typing import Any, ParamSpec
 
 import numpy as np
 
@@ -220,6 +221,16 @@ class Comparison:
         half_widths = answer.band_errors or {name: self._half_widths(candidate, part) for name, part in parts.items()}
         return {name: self._number_or_levels(half) for name, half in half_widths.items()}
 
+    @property
+    def error_parts(self) -> dict[str, NumberOrLevels]:
+        """`error_parts_of` the model that gives ``value``: model, grid and sample; none where none has an answer."""
+        return {} if self.selection.best is None else self.error_parts_of(self.selection.best)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What may be wrong about the scene though it is valid, in sentences."""
+        return self.scene.diagnose()
+
     def _number_or_levels(self, values: FloatArray) -> NumberOrLevels:
         """One number as a float, levels as a read-only array."""
         return kept(values) if self.is_level else float(values.item())
@@ -323,12 +334,52 @@ def listed(comparison: OneOrSeveral) -> list[Comparison]:
     return list(comparison)
 
 
+P = ParamSpec("P")
+
+
+def with_earlier_places(compare: Callable[P, Comparison]) -> Callable[P, Comparison]:
+    """A second place that is a tolerance; for one release also quantity, tolerance and seed there, as in version 0.3.
+
+    What begins as a number is a tolerance, which no quantity does.
+    """
+
+    @functools.wraps(compare)
+    def with_places(*places: Any, **named: Any) -> Comparison:
+        if len(places) < 2 or (len(places) == 2 and not _is_quantity(places[1])):
+            return compare(*places, **named)
+        if not _is_quantity(places[1]):
+            raise TypeError(
+                f"compare takes scene and tolerance by place, and {', '.join(EARLIER_PLACES[::2])} and others by "
+                f"keyword, got {len(places)} places"
+            )
+        warnings.warn(
+            "compare takes a tolerance in second place now: give quantity, tolerance and seed by keyword",
+            FutureWarning,
+            stacklevel=2,
+        )
+        earlier = dict(zip(EARLIER_PLACES, places[1:], strict=False))
+        if twice := [name for name in earlier if name in named]:
+            raise TypeError(f"compare must have one {twice[0]}, got it by place and by keyword")
+        return compare(*places[:1], **earlier, **named)
+
+    return with_places
+
+
+EARLIER_PLACES = ("quantity", "tolerance", "seed")
+
+
+def _is_quantity(second: object) -> bool:
+    """Whether the second place has a quantity, or None for the first one of the scene."""
+    return second is None or (isinstance(second, str) and not re.match(r"\s*[-+.\d]", second))
+
+
+@with_earlier_places
 def compare(
     scene: Scene,
-    quantity: str | None = None,
     tolerance: float | str = 0.1,
-    seed: int = 0,
     *,
+    quantity: str | None = None,
+    seed: int = 0,
     solve_all: bool = False,
     models: str | Decorated | Sequence[str | Decorated] | None = None,
     realisations: int | None = None,
@@ -343,11 +394,11 @@ def compare(
     ----------
     scene : IndentationScene, RollingScene or RailScene
         What `load_scene` returns.
+    tolerance : float or str, optional
+        Largest half-width of the 95 % interval: relative, or a text as "5 %" or "0.4 dB", in whose unit errors are
+        printed; of a spectrum, of the root mean square over all bands.
     quantity : str, optional
         One that the scene has, by default the first.
-    tolerance : float or str, optional
-        Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB", in whose unit errors are
-        printed; of a spectrum, of the root mean square over all bands.
     seed : int, optional
         Seed of the roughness that is drawn, zero or positive.
     solve_all : bool, optional
@@ -373,7 +424,7 @@ def compare(
 
     Examples
     --------
-    >>> result = validation.compare(validation.load_scene("sphere"), tolerance=0.01)
+    >>> result = validation.compare(validation.load_scene("sphere"), "1 %")
     >>> result.quantity, result.model, result.met
     ('stiffness', 'closed form', True)
     """

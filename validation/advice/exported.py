@@ -67,10 +67,9 @@ def to_json_of(comparisons: Sequence[Comparison]) -> str:
 
 def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
     """The object of one comparison that `SCHEMA_OF_JSON` describes, without infinities and NaN."""
-    table, best = result_table(comparison), comparison.selection.best
+    table = result_table(comparison)
     models = tables_of_models(table)
     columns: Mapping[str, Sequence[Any]] = next((model.columns for model in models if model["selected"][0]), {})
-    parts = comparison.error_parts_of(best) if best else {}
     return {
         "schema_version": SCHEMA,
         "scene": comparison.scene.name,
@@ -83,12 +82,14 @@ def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
         "beyond_elasticity": comparison.beyond_elasticity or None,
         "model": comparison.model or None,
         **{name: _finite_numbers(columns.get(name, np.atleast_1d(comparison.value))) for name in ("value", "error")},
-        "error_parts": {name: _finite_numbers(np.atleast_1d(halves)) for name, halves in parts.items()},
+        "error_parts": {
+            name: _finite_numbers(np.atleast_1d(halves)) for name, halves in comparison.error_parts.items()
+        },
         **{name: _finite_numbers(getattr(comparison, name)) for name in AXES},
         **{name: _finite_numbers(columns.get(name, ())) for name in OF_RAIL},
         **swept_of(comparison),
         "assumed": assumed(comparison.scene),
-        "notes": list(comparison.scene.diagnose()),
+        "notes": list(comparison.notes),
         "models": [_record_of_model(model) for model in models],
     }
 
