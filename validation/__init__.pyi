@@ -6,10 +6,14 @@ from validation.advice.exported import to_csv as to_csv
 from validation.advice.exported import to_json as to_json
 from validation.advice.figure import to_figure as to_figure
 from validation.advice.summary import summary as summary
+from validation.advice.tolerance import Tolerance as Tolerance
+from validation.analysis.evidence import Verdict as Verdict
+from validation.benchmarks.discrete import KnownContact as KnownContact
 from validation.benchmarks.discrete import problems as problems
 from validation.judging.judge import Judgement as Judgement
 from validation.judging.judge import judge as judge
 from validation.judging.judgement import JudgedNumber as JudgedNumber
+from validation.judging.judgement import JudgedRange as JudgedRange
 from validation.judging.registry import contact_filter as contact_filter
 from validation.judging.registry import contact_law as contact_law
 from validation.judging.registry import contact_solver as contact_solver

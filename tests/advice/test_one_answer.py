@@ -80,7 +80,7 @@ def test_no_model_is_selected_that_a_less_biased_one_contradicts():
     for left, met in ((0.03, True), (0.08, False)):
         grid = Finding(name="grid", parts=(0, left, 0), value=(1.3,), claimed=0.0)
         found = compared(springs, grid, tolerance="5%", solve_all=True)
-        assert (found.model, found.met, found.value[0]) == ("grid", met, 1.3)
+        assert (found.model, found.met, found.value) == ("grid", met, 1.3)
         assert found.models["springs"].status == "not accurate enough"
         assert found.models["springs"].reason.startswith(
             "grid, with less bias, is 30 % away, beyond the errors of both"

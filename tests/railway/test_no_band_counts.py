@@ -48,7 +48,9 @@ def asked(model):
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
 def test_no_model_is_enough_where_no_band_counts(scene, span, across):
     """Also where a wrong filter has one: the linear bed of springs at 12.5 mm."""
-    found = compare(replace(scene, lateral_structure=across), "contact-filter", "1 dB", callback=asked)
+    found = compare(
+        replace(scene, lateral_structure=across), quantity="contact-filter", tolerance="1 dB", callback=asked
+    )
     assert not found.met and found.model == "" and math.isinf(found.error)
     assert all(one.status == "out of range" and math.isinf(one.predicted_error) for one in found.models)
     text = " ".join(summary(found).split())
@@ -71,9 +73,9 @@ def test_a_solve_leaves_its_bands_and_no_error():
 
 
 def test_the_longest_band_that_counts_is_enough_for_an_answer():
-    found = compare(of_bands(slice(21, 29)), "contact-filter", "3 dB")
+    found = compare(of_bands(slice(21, 29)), quantity="contact-filter", tolerance="3 dB")
     assert found.met and (found.value > COUNTED).sum() == 1
-    assert not compare(SHORT, "equivalent-roughness", "1 dB").met
+    assert not compare(SHORT, quantity="equivalent-roughness", tolerance="1 dB").met
 
 
 def test_a_trial_without_a_band_that_counts_has_no_true_error():

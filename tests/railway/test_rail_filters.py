@@ -200,7 +200,7 @@ def test_at_fixed_aspect_the_filter_over_wavelength_and_contact_does_not_depend_
     "validation.railway.problems.rail_quantity.RailQuantity.half_width", property(lambda quantity: 0 * quantity.wave)
 )
 def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground():
-    both = compare(replace(RAIL, lateral_structure=None), "contact-filter", "3 dB")
+    both = compare(replace(RAIL, lateral_structure=None), quantity="contact-filter", tolerance="3 dB")
     ends = [closed(RAIL, across)[1][LINEAR] for across in ("ridges", "isotropic")]
     quantity = RailQuantity(replace(RAIL, lateral_structure=None), "contact-filter")
     np.testing.assert_allclose(quantity.half_width, np.abs(ends[0] - ends[1]) / 2)

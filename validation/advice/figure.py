@@ -251,7 +251,8 @@ def _interval_of_model(comparison: Comparison, name: str, wave: float) -> Interv
     for candidate in comparison.selection.solved:
         at = 0 if math.isnan(wave) else _index_of_band(comparison, wave)
         if candidate.name == name and at is not None:
-            return _interval(comparison.value_of(candidate)[at], comparison.errors_of(candidate)[at])
+            value, half_width = map(np.atleast_1d, (comparison.value_of(candidate), comparison.errors_of(candidate)))
+            return _interval(value[at], half_width[at])
     return math.nan, math.nan, math.nan
 
 

@@ -4,7 +4,7 @@ import itertools
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from typing import Any
 
@@ -107,6 +107,10 @@ class SceneModel:
     resolution: Resolution
     shared: Shared = field(default_factory=dict, repr=False, compare=False)
     realisations: int | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without solves, whose numbers are in answers, and without what is computed from the fields."""
+        return {each.name: getattr(self, each.name) for each in fields(self)} | {"shared": {}}
 
     @property
     def kind(self) -> str:

@@ -349,9 +349,9 @@ def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
     if best is None:
         result = ""
     elif comparison.is_level:
-        result = power.shown if (power := comparison.power) else f"{comparison.value.size} bands"
+        result = power.shown if (power := comparison.power) else f"{np.size(comparison.value)} bands"
     else:
-        (value,), (half,) = comparison.value, comparison.errors_of(best)
+        value, half = float(comparison.value), float(comparison.errors_of(best))
         result = f"{scaled(float(value), float(half))} {comparison.unit}"
     return {
         "scene": f"{scene}: {comparison.quantity}" if several else scene,
@@ -447,7 +447,7 @@ def _value_sentence(quantities: Sequence[Comparison], answer: Answer) -> str:
         return f"{name} = {scaled(value, value * answer.error)} {comparison.unit} by {comparison.model}{of}"
     power = comparison.power
     weighted = f", sound power {power.shown}" if power else ""
-    return f"{name} by {comparison.model}: {comparison.value.size} bands{of}{weighted}"
+    return f"{name} by {comparison.model}: {np.size(comparison.value)} bands{of}{weighted}"
 
 
 def _error_sentence(comparison: Comparison, answer: Answer) -> str:

@@ -77,6 +77,16 @@ def shortened(value: object) -> str:
     return printable(_SHORT.repr(value))
 
 
+MOST_IN_LINE = 99
+"""Characters of what a result prints of itself."""
+
+
+def one_line(text: str) -> str:
+    """A printable line of less than 100 characters, cut where it is longer."""
+    line = printable(text)
+    return line if len(line) <= MOST_IN_LINE else f"{line[: MOST_IN_LINE - 4]}...{line[-1]}"
+
+
 def quoted(value: object) -> str:
     """The same, a text in double quotes, as in a scene file."""
     if not isinstance(value, str):

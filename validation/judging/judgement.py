@@ -8,6 +8,7 @@ from operator import attrgetter
 from typing import NamedTuple, TypeVar
 
 from validation.advice.tolerance import decibels
+from validation.analysis.contents import conditions_in_json
 from validation.analysis.evidence import Number, Role, Verdict, verdict_of, where_text
 from validation.analysis.number_text import deviation_text
 from validation.analysis.ranges import VerdictRange, verdict_ranges
@@ -79,6 +80,16 @@ class JudgedNumber:
     decides: bool = False
     tolerance: float = math.nan
     grid: float = 0.0
+
+    @property
+    def conditions(self) -> dict[str, float | str]:
+        """`where` by the names of JSON and CSV, as wavelength_mm."""
+        return conditions_in_json(self.where)
+
+    @property
+    def outcome(self) -> str:
+        """The verdict as a text, as JSON and CSV have it."""
+        return str(self.verdict)
 
     @property
     def shown(self) -> str:
@@ -199,6 +210,16 @@ class JudgedRange:
     start: float
     stop: float
     verdict: Verdict
+
+    @property
+    def conditions(self) -> dict[str, float | str]:
+        """`where` by the names of JSON and CSV."""
+        return conditions_in_json(self.where)
+
+    @property
+    def outcome(self) -> str:
+        """The verdict as a text."""
+        return str(self.verdict)
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,10 @@
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import ClassVar, overload
 
 from mdr import SelfAffine
-from mdr.checks import positive
+from mdr.checks import FloatArray, Numbers, positive
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.reader import LENGTH, NUMBER, Reader, table
 from validation.scenes.units import in_unit
@@ -72,7 +69,11 @@ class Roughness:
         """The ends of the spectrum, (q_min, q_max) [rad/m]."""
         return self.q_min, self.q_max
 
-    def c2d(self, q: ArrayLike) -> NDArray[np.float64]:
+    @overload
+    def c2d(self, q: float) -> float: ...
+    @overload
+    def c2d(self, q: Numbers) -> FloatArray: ...
+    def c2d(self, q: float | Numbers) -> float | FloatArray:
         """C_2D of the spectrum [m^4]."""
         return self.spectrum.c2d(q)
 

@@ -1,7 +1,8 @@
 """What a scene says of itself, whichever body it has."""
 
 import math
-from dataclasses import dataclass, fields
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
@@ -215,6 +216,23 @@ def values_of(scene: Any) -> dict[str, Any]:
     """Fields of a scene and their values, but for `LATER` ones without a value."""
     values = {each.name: (getattr(scene, each.name), each.metadata) for each in fields(scene)}
     return {name: value for name, (value, about) in values.items() if value is not None or "later" not in about}
+
+
+def parameters_of(scene: Any) -> dict[str, float | str | None]:
+    """Numbers and texts of a scene and of what it holds in SI units, by their names in Python, as "ground.rms".
+
+    Arrays and tuples, as heights and levels, are left out.
+    """
+
+    def walk(part: Any, path: str) -> Iterator[tuple[str, Any]]:
+        for name in (each.name for each in fields(part)):
+            value = getattr(part, name)
+            if is_dataclass(value):
+                yield from walk(value, f"{path}{name}.")
+            elif value is None or isinstance(value, str | int | float):
+                yield f"{path}{name}", value
+
+    return dict(walk(scene, ""))
 
 
 class SceneDefaults:

@@ -48,7 +48,7 @@ class Recorded(Caller):
     """The first answer to each problem; problems that were asked twice, with both answers, where these differ."""
 
     @property
-    def offered(self) -> Offered:  # type: ignore[override]  # is read alone
+    def offered(self) -> Offered[..., Any]:  # type: ignore[override]  # is read alone
         return self.model.offered
 
     @property

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -72,7 +72,7 @@ geike = offered.profile_spectrum("Geike's rule")(lambda q, roughness: math.pi * 
 trace = offered.profile_spectrum("line trace")(lambda q, roughness: roughness.line(q))
 
 
-def _offered(name: str, theory: Callable[..., InterfaceModel]) -> Offered:
+def _offered(name: str, theory: Callable[..., InterfaceModel]) -> Offered[..., Any]:
     """A model of the core, of C_2D between the ends of the band and of the plateau."""
 
     def of_roughness(pressure: float, modulus: float, roughness: PlateauRoughness, quantity: str) -> float:
@@ -85,7 +85,7 @@ def _offered(name: str, theory: Callable[..., InterfaceModel]) -> Offered:
 
 persson = _offered("Persson, γ = 0.45", Persson)
 spheres, ellipsoids = (_offered(theory.name, theory) for theory in (GreenwoodWilliamson, BushGibsonThomas))
-OWN: Sequence[Offered] = (
+OWN: Sequence[Offered[..., Any]] = (
     *(springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace),
     *(persson, spheres, ellipsoids),
 )
