@@ -296,7 +296,7 @@ OneOrSeveral = Comparison | Sequence[Comparison]
 """What functions of the face take."""
 
 
-def listed(comparison: OneOrSeveral) -> list[Comparison]:
+def comparisons_of(comparison: OneOrSeveral) -> list[Comparison]:
     """The comparisons as a list. Raises TypeError for anything else, ValueError for an empty list."""
     if isinstance(comparison, Comparison):
         return [comparison]

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from validation.advice.compare import Comparison, OneOrSeveral, listed
+from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.table import (
     AXES,
     OF_FORCE,
@@ -52,7 +52,7 @@ def to_json(comparison: OneOrSeveral) -> str:
     >>> result["quantity"], result["unit"], result["model"], result["met"]
     ('stiffness', 'N/m', 'closed form', True)
     """
-    records = list(map(_record_of_comparison, listed(comparison)))
+    records = list(map(_record_of_comparison, comparisons_of(comparison)))
     return as_json(records[0] if isinstance(comparison, Comparison) else records).decode()
 
 
@@ -111,7 +111,7 @@ def to_csv(comparison: OneOrSeveral) -> str:
     >>> print(text.splitlines()[0])
     wavelength_mm,frequency_hz,value,low,high,unit,model,selected
     """
-    return as_csv(csv_table(listed(comparison))).decode()
+    return as_csv(csv_table(comparisons_of(comparison))).decode()
 
 
 def csv_table(comparisons: Sequence[Comparison]) -> Table:

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from validation.advice.compare import Comparison, OneOrSeveral, listed
+from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.exported import csv_table
 from validation.advice.table import by_quantity, counted_bands, reference_of, shown_models, speed_and_accuracy
 from validation.analysis.chart import Chart, Curve, Panel
@@ -56,7 +56,7 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     """
     if form not in FORMATS:
         raise ValueError(f"form must be one of {', '.join(FORMATS)}, got {form!r}")
-    comparisons = listed(comparison)
+    comparisons = comparisons_of(comparison)
     title, drawn = panels_of(comparisons)
     return _picture(title, drawn, form, partial(names_of_users, comparisons))
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from validation.advice import advice as on_mdr
 from validation.advice.advice import is_solved, springs_of, what_would_help, would_help
-from validation.advice.compare import Comparison, OneOrSeveral, listed
+from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.hierarchy import Candidate, Status
 from validation.advice.models_of_scene import quantity_of
 from validation.advice.scene_model import Answer
@@ -93,7 +93,7 @@ def summary(comparison: OneOrSeveral) -> str:
     Smooth sphere: stiffness within 10 %
     """
     if not isinstance(comparison, Comparison):
-        comparisons = listed(comparison)
+        comparisons = comparisons_of(comparison)
         return "\n".join([*overview(comparisons), *help_with(comparisons)])
     understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
     return f"{understood}\n{findings([comparison], in_full)}"

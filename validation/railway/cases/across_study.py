@@ -167,7 +167,7 @@ STUDY = Study(
             short="Linear theory of the ellipse agrees with boundary elements",
             key="linear-theory",
         ),
-        replace(from_ridges, quantity=across.ONE_LINE, whose=Whose.FIELD).saying(
+        replace(from_ridges, quantity=across.ONE_LINE, whose=Whose.LITERATURE).saying(
             "Springs on one line agree with a three-dimensional elastic analysis within 3 dB in one-third octaves "
             "(Ford and Thompson 2006).",
             short="Springs on one line agree with boundary elements",

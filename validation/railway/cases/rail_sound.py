@@ -179,7 +179,7 @@ class RailSoundResult(Outcomes):
         return estimate, abs(estimate.value - on_coarse.value) * coarse / (fine - coarse)
 
     def _over_bem(self, model: str, cells: int) -> Estimate:
-        """By the jackknife over pieces of the strip."""
+        """A-weighted level relative to boundary elements on so many cells [dB], by the jackknife over pieces."""
         powers = [powers_of_blocks(filtered(self[name, cells], self.weight), self.case.blocks) for name in (model, BEM)]
 
         def ratio(rows: FloatArray) -> FloatArray:
