@@ -61,7 +61,7 @@ def test_no_model_is_enough_where_no_band_counts(scene, span, across):
 
 
 @catches("enough where no band counts").at(
-    "validation.railway.problems.rail_models.worst", lambda quantity, a3, error: 0.0
+    "validation.railway.problems.rail_quantity.RailQuantity.largest_error", lambda quantity, a3, error: 0.0
 )
 def test_a_solve_leaves_its_bands_and_no_error():
     """As with --all: what was found is told, and no error of it is known."""
