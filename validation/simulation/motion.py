@@ -89,11 +89,7 @@ def simulate(
     _check_stable(wheel, bodies, step, integrator)
     if steps < 1:
         raise ValueError(f"steps must be at least 1, got {steps}")
-    d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
-    each = d.shape if len(bodies) == 1 else (len(bodies), *d.shape)
-    v = np.zeros(each) if velocity is None else np.array(velocity, dtype=np.float64)
-    if not (np.isfinite(d).all() and np.isfinite(v).all() and v.shape == each):
-        raise ValueError(f"approach and velocity must be finite and alike in shape, {each}, got {d} and {v}")
+    d, v = _initial_state(law, len(bodies), approach, velocity)
     gravity, rate = wheel.load / wheel.mass, bodies[0].dashpot / wheel.mass
     integrator = _integrator_of(bodies, integrator)
 
@@ -189,6 +185,21 @@ def periodic_motion(
 def natural_periods(wheel: Wheel, length: float, speed: float) -> float:
     """Natural periods that pass while the wheel rolls a length [-]."""
     return wheel.eigenfrequency * length / speed / (2 * math.pi)
+
+
+def _initial_state(
+    law: ContactLaw, bodies: int, approach: FloatArray | None, velocity: FloatArray | None
+) -> tuple[FloatArray, FloatArray]:
+    """Approaches (wheels,) and velocities, (wheels,) or (bodies, wheels), by default of static equilibrium.
+
+    Raises ValueError for what is not finite, or not of one shape.
+    """
+    d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
+    each = d.shape if bodies == 1 else (bodies, *d.shape)
+    v = np.zeros(each) if velocity is None else np.array(velocity, dtype=np.float64)
+    if not (np.isfinite(d).all() and np.isfinite(v).all() and v.shape == each):
+        raise ValueError(f"approach and velocity must be finite and alike in shape, {each}, got {d} and {v}")
+    return d, v
 
 
 def _check_stable(wheel: Wheel, bodies: Sequence[RailBody], step: float, integrator: Integrator) -> None:
