@@ -93,8 +93,8 @@ def notes(result: Outcomes) -> list[str]:
         coupled = [deviations.ratio(*pair)[widest].value.value for pair in at]
         if uncoupled:
             sentences.append(
-                f"At H = {hurst:g} it is {_from_to(coupled)} that of BEM; without elastic coupling springs along a line "
-                f"have {_from_to(uncoupled)} the deviation of springs over an area: elastic coupling makes the rest."
+                f"At H = {hurst:g} it is {_from_to(coupled)} that of BEM; without elastic coupling springs along a "
+                f"line have {_from_to(uncoupled)} the deviation of springs over an area: the rest is elastic coupling."
             )
     return sentences
 
