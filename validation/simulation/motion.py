@@ -77,24 +77,21 @@ def simulate(
     On a rail that gives way d = -z - sum of u_j, m_j u_j'' = F - F_N - c_j u_j' of each body of the rail, downward.
 
     law: the contact force of all wheels, which advance together; time_step: of one cell [s]; steps: that are recorded;
-    approach, velocity: of each wheel at the beginning, by default static equilibrium over the first cell [m, m/s], as
-    in `Motion`;
+    approach, velocity: as in `Motion`, at the beginning, by default static equilibrium over the first cell [m, m/s];
     integrator: symplectic and of second order by default, the only one for a wheel with a dashpot; path: whether to
     keep approaches and forces.
     Wheels may lose contact, F = 0, and come back; the dashpot, between wheel and inertial frame, acts on.
     Raises ValueError for a step at or past the limit of the integrator, omega_eigen dt, before it begins.
     """
-    step = integrator.cells * positive("time_step", time_step)
-    bodies = moving_bodies(wheel, time_step)
+    step, bodies = integrator.cells * positive("time_step", time_step), moving_bodies(wheel, time_step)
     _check_stable(wheel, bodies, step, integrator)
     if steps < 1:
         raise ValueError(f"steps must be at least 1, got {steps}")
-    d, v = _initial_state(law, len(bodies), approach, velocity)
+    d, v = _start(law, len(bodies), approach, velocity)
     gravity, rate = wheel.load / wheel.mass, bodies[0].dashpot / wheel.mass
     integrator = _integrator_of(bodies, integrator)
 
     def lifted(a: FloatArray, v: FloatArray) -> FloatArray:
-        """z'' upward of the wheel."""
         return np.negative(a - rate * (v if len(bodies) == 1 else v[0]))
 
     def acceleration(place: int, d: FloatArray) -> FloatArray:
@@ -106,9 +103,8 @@ def simulate(
     lowest, highest, airborne = d, d, np.zeros(d.size, dtype=np.int64)
     for n in range(steps):
         d, v, a = next(states)
-        record[n] = lifted(a, v)
+        record[n], airborne = lifted(a, v), airborne + (a >= gravity)
         lowest, highest = np.minimum(lowest, d), np.maximum(highest, d)
-        airborne += a >= gravity
         if paths is not None and forces is not None:
             paths[n], forces[n] = d, wheel.load - wheel.mass * a
     d, v, a = next(states)
@@ -125,6 +121,18 @@ def simulate(
         path=paths,
         force=forces,
     )
+
+
+def _start(
+    law: ContactLaw, bodies: int, approach: FloatArray | None, velocity: FloatArray | None
+) -> tuple[FloatArray, FloatArray]:
+    """Approach and velocities at the beginning, by default static equilibrium. Raises ValueError."""
+    d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
+    each = d.shape if bodies == 1 else (bodies, *d.shape)
+    v = np.zeros(each) if velocity is None else np.array(velocity, dtype=np.float64)
+    if not (np.isfinite(d).all() and np.isfinite(v).all() and v.shape == each):
+        raise ValueError(f"approach and velocity must be finite and alike in shape, {each}, got {d} and {v}")
+    return d, v
 
 
 def simulate_from_linear_motion(
@@ -185,21 +193,6 @@ def periodic_motion(
 def natural_periods(wheel: Wheel, length: float, speed: float) -> float:
     """Natural periods that pass while the wheel rolls a length [-]."""
     return wheel.eigenfrequency * length / speed / (2 * math.pi)
-
-
-def _initial_state(
-    law: ContactLaw, bodies: int, approach: FloatArray | None, velocity: FloatArray | None
-) -> tuple[FloatArray, FloatArray]:
-    """Approaches (wheels,) and velocities, (wheels,) or (bodies, wheels), by default of static equilibrium.
-
-    Raises ValueError for what is not finite, or not of one shape.
-    """
-    d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
-    each = d.shape if bodies == 1 else (bodies, *d.shape)
-    v = np.zeros(each) if velocity is None else np.array(velocity, dtype=np.float64)
-    if not (np.isfinite(d).all() and np.isfinite(v).all() and v.shape == each):
-        raise ValueError(f"approach and velocity must be finite and alike in shape, {each}, got {d} and {v}")
-    return d, v
 
 
 def _check_stable(wheel: Wheel, bodies: Sequence[RailBody], step: float, integrator: Integrator) -> None:
