@@ -11,7 +11,7 @@ import numpy as np
 
 from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
-from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units, typical_slope
+from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units
 from bem3d.problem import Problem
 from bem3d.results import ReadOnly, kept, span
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
@@ -170,7 +170,7 @@ class Contact(ReadOnly):
             modulus=half_space.modulus,
             approach=self.approach - self.problem.first_touch if cells else 0.0,
             side=max(n * step for n, step in zip(half_space.shape, half_space.steps, strict=True)),
-            slope=typical_slope(self.problem.gap, half_space.steps),
+            slope=self.problem.slope if half_space.modulus != 1 else 0.0,
         )
         edge = not (half_space.periodic or self.problem.indenter_ends_at_edge)
         return (*diagnose_pressure(self.pressure, edge=edge), *units)
@@ -240,12 +240,16 @@ def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
     total = float(pressure.sum())
     if not math.isfinite(total):
         return math.nan
-    if overlap <= 0:
-        return 0.0 if total == 0 else math.inf
     product = np.abs(w)
     product *= pressure
-    open_under_pressure = float(product.sum()) / total if total > 0 else 0.0
-    penetration = -float(w.min())
+    return relative_error(total, float(product.sum()), -float(w.min()), overlap)
+
+
+def relative_error(total: float, moved: float, penetration: float, overlap: float) -> float:
+    """`residual` from the sums of p and of p abs(w), and max(-w)."""
+    if overlap <= 0:
+        return 0.0 if total == 0 else math.inf
+    open_under_pressure = moved / total if total != 0 else 0.0
     # the built-in max loses a NaN
     if math.isnan(open_under_pressure) or math.isnan(penetration):
         return math.nan
