@@ -49,8 +49,8 @@ def _values(scene, quantity):
     if not quantity_of(scene, quantity).in_bands:
         return np.array([5.4e7])
     rail = isinstance(scene, RailScene)
-    count = len(scene.levels.bands) if rail else RollingQuantity(scene, quantity).bands.centres.size
-    return np.logspace(-3, 3, count)
+    bands = scene.bands(quantity) if rail else RollingQuantity(scene, quantity).bands.centres
+    return np.logspace(-3, 3, bands.size)
 
 
 @dataclass(frozen=True)

@@ -32,6 +32,7 @@ from validation.scenes.rolling import RollingQuantity
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.method import distance, mean_error
+from validation.simulation.rough_punch import STIFFNESS_ERROR
 from validation.theory import rolling
 
 
@@ -120,7 +121,7 @@ def test_a_grid_that_was_solved_as_a_reference_is_not_solved_again():
     alone = grid_of(punch(), 1e-3, 3, round(models[-1].resolution.size)).solve()
     assert last.value == alone.value and last.error == alone.error
     finer = models[-1].resolution.size ** 2 / models[0].resolution.size ** 2
-    assert last.cost.work == pytest.approx(8 * 24 * models[-1].resolution.size ** 2)
+    assert last.cost.work == pytest.approx(8 * 19 * models[-1].resolution.size ** 2)
     assert alone.cost.work == pytest.approx(last.cost.work * (1 + 1 / 4 + 1 / 16))
     assert first.cost.work * finer == pytest.approx(alone.cost.work)
 
@@ -193,8 +194,8 @@ def test_boundary_elements_are_those_of_the_solver():
     assert surfaces > 8 and answer.error <= 0.15
     heights = (pressed_heights.height_of(punch(), 32, i, seed=3) for i in range(surfaces))
     drawn = [pressed_stiffness(height, 1 / 32, punch().load) for height in heights]
-    assert answer.value[0] == pytest.approx(np.mean(drawn), rel=1e-9)
-    assert answer.sample == pytest.approx(mean_error(np.array(drawn)[:, np.newaxis] / np.mean(drawn)), rel=1e-6)
+    assert answer.value[0] == pytest.approx(np.mean(drawn), rel=STIFFNESS_ERROR)
+    assert answer.sample == pytest.approx(mean_error(np.array(drawn)[:, np.newaxis] / np.mean(drawn)), rel=1e-3)
 
 
 drawn_on_a_grid = pressed_heights._drawn
@@ -376,7 +377,9 @@ def test_what_was_not_solved_has_cost_nothing():
 def test_measured_heights_are_pressed_themselves():
     scene = punch(ground=measured(rough((64, 64), 1 / 64), 1 / 64), load=0.1)
     found = grids_of(scene, "stiffness", 0.05)[-1].solve()
-    assert found.value[0] == pytest.approx(pressed_stiffness(scene.ground.height, 1 / 64, scene.load), rel=1e-6)
+    assert found.value[0] == pytest.approx(
+        pressed_stiffness(scene.ground.height, 1 / 64, scene.load), rel=5 * STIFFNESS_ERROR
+    )
     assert found.sample == 0
 
 

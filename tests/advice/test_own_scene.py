@@ -99,13 +99,13 @@ def test_texts_of_a_sweep_stand_in_their_order():
     assert panel.log == "" and table[panel.x].tolist() == ["ridges", "isotropic", "0.5"]
 
 
-def test_a_sweep_of_spectra_has_the_force_and_the_bands_that_change_most_each_with_an_axis_of_its_own():
+def test_a_sweep_of_spectra_has_the_sound_power_and_the_bands_that_change_most_each_with_an_axis_of_its_own():
     loads = swept_values("wheel.load", ["20 kN", "50 kN", "300 kN"], "Wheel")
     found = [replace(planted("rail", "contact-filter", error=0.05), swept=of) for of in loads]
-    title, ((force, _), (bands, table)) = panels_of(found)
+    title, ((power, _), (bands, table)) = panels_of(found)
     count = len(found[0].selection.solved)
     assert title == f"Wheel: contact-filter; {MOST} curves of {count}, all are in the CSV"
-    assert force.y == "A-weighted [dB re 1 N]" and force.own_y and bands.own_y and bands.log == force.log == "x"
+    assert power.y == "A-weighted [dB re 1 pW]" and power.own_y and bands.own_y and bands.log == power.log == "x"
     waves = table["wavelength [mm]"].tolist()
     assert bands.facet == "wavelength [mm]" and len(set(waves)) == 3 and waves == sorted(waves, reverse=True)
     assert len(bands.curves) == MOST and all(curve.band for curve in bands.curves)

@@ -18,10 +18,10 @@ from validation.analysis.statistics import (
     Linearised,
     Resolved,
     combined,
+    extrapolate_to_zero,
     extrapolated,
     jackknifed,
     on_finest,
-    on_no_size,
     student,
 )
 from validation.benchmarks.work_precision.pareto import MethodValues, error
@@ -74,7 +74,7 @@ def steps(*values, error=0.01, n=50):
 
 
 def compared(bem, springs, *, name=MEAN_STIFFNESS, among=4):
-    apart = on_finest(list(springs.values())).minus_independent(on_no_size(list(bem.values())))
+    apart = on_finest(list(springs.values())).minus_independent(extrapolate_to_zero(list(bem.values())))
     return number_of(apart, name, among)
 
 

@@ -12,7 +12,7 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
-from validation.cases.wheel.features import FLOOR, Spectrum, measured
+from validation.cases.wheel.ensembles import FLOOR, Spectrum, measured
 
 
 def test_the_law_of_the_break_covers_its_truth():

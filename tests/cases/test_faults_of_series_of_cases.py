@@ -146,7 +146,7 @@ def result_of(bem, finer, springs, height=0.1, case=ROLLING):
 
 
 @catches("levels of the finest cells for those of no size").at(
-    "validation.analysis.series.Estimates.on_no_size", lambda mine, finer: mine
+    "validation.analysis.series.Estimates.extrapolate_to_zero", lambda mine, finer: mine
 )
 def test_the_rms_and_the_mean_force_are_those_on_cells_of_no_size():
     """Boundary elements 10 % over linear theory in power, 2 % less on finer cells; springs 30 % over it."""

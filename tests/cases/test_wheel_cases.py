@@ -12,7 +12,17 @@ from validation.analysis.evidence import ClaimStatus, Verdict, number_with, numb
 from validation.cases.wheel import distance as by_distance
 from validation.cases.wheel import half_space, half_space_study, spectrum
 from validation.cases.wheel.distance_study import CASE as DISTANCE_CASE
-from validation.cases.wheel.features import FIRST, FOURTH, JUMP, LEVEL, PEAK, PERIOD, PLATEAU, QUANTITIES, SLOPE
+from validation.cases.wheel.ensembles import (
+    FIRST,
+    FOURTH,
+    JUMP,
+    LEVEL,
+    PEAK,
+    PERIOD,
+    PLATEAU,
+    QUANTITIES,
+    SLOPE,
+)
 from validation.cases.wheel.half_space_study import CASE as CASE_3D
 from validation.cases.wheel.half_space_study import LEVELS
 from validation.cases.wheel.spectrum_study import CASE

@@ -8,8 +8,8 @@ import pytest
 
 from tests.cases.planted import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
 from tests.seeded import Times, catches
-from validation.cases.wheel import features as wheel_features
-from validation.cases.wheel.features import FLOOR, Spectrum
+from validation.cases.wheel import ensembles
+from validation.cases.wheel.ensembles import FLOOR, Spectrum
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.motion import natural_periods, simulate
 from validation.simulation.wheel_on_springs import simulate_ensemble
@@ -107,9 +107,9 @@ def test_rail_and_wheel_add_as_spectra():
     found = power(both).sum(axis=0) - power(rail).sum(axis=0) - power(of_wheel).sum(axis=0)
     assert abs(found.mean()) <= 4 * found.std() / math.sqrt(count)
     q = np.linspace(0.5 * BOTH.rail.q_min, 1.5 * BOTH.rail.q_max, 999)
-    total = wheel_features.roughness(BOTH)(q)
+    total = ensembles.roughness(BOTH)(q)
     np.testing.assert_array_equal(total, BOTH.rail.spectrum.c1d(q) + BOTH.wheel.spectrum.c1d(q))
-    assert wheel_features.roughness(SMALL)(q) == pytest.approx(SMALL.rail.spectrum.c1d(q), rel=ROUNDING)
+    assert ensembles.roughness(SMALL)(q) == pytest.approx(SMALL.rail.spectrum.c1d(q), rel=ROUNDING)
 
 
 heights_of = wheel_ensemble.WheelEnsemble.heights
@@ -220,11 +220,11 @@ def test_the_floor_of_an_open_record_is_its_jump():
     wave near the end of the band, at 1 / 1.3 of where the floor begins, has 1 / (1 - 1 / 1.3)^2 = 19 shares."""
     ride = rides(count=40, groups=10, linear=True)
     spectrum = Spectrum.of(SMALL, [simulate_ensemble(ride)])
-    predicted = wheel_features.expected(spectrum)[FLOOR]
+    predicted = ensembles.expected(spectrum)[FLOOR]
     slopes = 3 * 3.4 / 1.4 * (SMALL.jump / (1.3 * SMALL.cutoff)) ** 2
     near = 19 * (SMALL.jump / SMALL.cutoff) ** 3.4
-    assert wheel_features.measured(spectrum)[FLOOR].value / predicted == pytest.approx(1, abs=slopes + near)
+    assert ensembles.measured(spectrum)[FLOOR].value / predicted == pytest.approx(1, abs=slopes + near)
     assert slopes + near < 0.02
     # and not that of Hann's window, which has no jump
     of_hann = Spectrum(**{**vars(spectrum), "plain": spectrum.hann})
-    assert wheel_features.measured(of_hann)[FLOOR].value < 0.01 * predicted
+    assert ensembles.measured(of_hann)[FLOOR].value < 0.01 * predicted

@@ -15,7 +15,7 @@ from validation.advice.compare import compare
 from validation.railway.rail_columns import filter_table
 from validation.simulation.model_names import SPRINGS_GEIKE
 
-PUBLISHED = Path(validation.__file__).parent / "railway" / "cases" / "cnossos_a3_2021.csv"
+PUBLISHED = Path(validation.__file__).parent / "railway" / "tables" / "cnossos_a3_2021.csv"
 RAIL = validation.load_scene("rail")
 
 

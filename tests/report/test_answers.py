@@ -20,7 +20,7 @@ from validation.cases.punch import fractal_punch_study, interface
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
 from validation.cases.rolling.force_spectrum import LINEAR_3D, RMS_FORCE, RMS_LEVEL, SPRINGS
 from validation.cases.rolling.force_spectrum import OVER as OVER_ROLLED
-from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
+from validation.cases.wheel.ensembles import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.railway.cases import across, rolled_filters
 from validation.railway.cases.filters import OFFSET

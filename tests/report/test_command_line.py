@@ -28,7 +28,7 @@ from validation.cases.stability import wheel_stability
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
-from validation.cases.wheel.features import QUANTITIES
+from validation.cases.wheel.ensembles import QUANTITIES
 from validation.engine import engine as ensemble
 from validation.railway.cases.across import Across
 from validation.railway.cases.rail_dynamic import RailDynamic

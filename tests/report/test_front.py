@@ -199,7 +199,7 @@ def test_a_filter_is_right_where_it_agrees_over_all_grounds():
     assert right_filters(table) == "two"
     assert right_filters(Table("none", {"filter": ["one"], f"{WORST} ridges": ["-"]})) == ""
     # rows by their names, of two tables in different order
-    assert table.columns["rms force over isotropic ground [dB(A)]"] == ["3", "4"]
+    assert table.columns["sound power, isotropic ground [dB(A)]"] == ["3", "4"]
     assert table.name.endswith(": a wheel")
 
 

@@ -15,7 +15,6 @@ import numpy as np
 from bem3d.diagnostics import HIGHEST_PRESSURE
 from bem3d.results import kept
 from mdr.checks import count
-from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate, Selection, rejected, select_model
 from validation.advice.models_of_scene import (
     BY_NAME,
@@ -30,6 +29,7 @@ from validation.advice.models_of_scene import (
     quantity_of,
 )
 from validation.advice.scene_model import SceneModel, Shared
+from validation.advice.sound_power import ContactForce, SoundPower
 from validation.advice.tolerance import Tolerance, decibels, tolerance_of
 from validation.analysis.escapes import shortened
 from validation.analysis.spectra import MANTISSAS
@@ -101,8 +101,8 @@ class Comparison:
     scene : IndentationScene, RollingScene or RailScene
         The scene.
     quantity : str
-        "stiffness", "force-rms", "force-spectrum", "acceleration", "acceleration-rms", "contact-filter" or
-        "equivalent-roughness".
+        "stiffness", "force-rms", "force-spectrum", "acceleration", "acceleration-rms", "contact-filter",
+        "equivalent-roughness" or "sound-power".
     selection : Selection
         Models, estimates and answers in full.
     in_decibels : bool
@@ -115,7 +115,8 @@ class Comparison:
         What was asked, with its unit.
     value : ndarray
         One number in SI units; for "force-spectrum" and "acceleration" a level in each one-third octave, in dB re 1 N
-        and 1 m/s^2. NaN where no model has an answer. Read-only, as all arrays of a comparison.
+        and 1 m/s^2, for "sound-power" in dB re 1 pW. NaN where no model has an answer. Read-only, as all arrays of a
+        comparison.
     error : float
         Half-width of the 95 % interval: relative, in dB for levels. For levels it is that of all bands together.
     unit : str
@@ -196,13 +197,17 @@ class Comparison:
 
     @property
     def roughness(self) -> FloatArray:
-        """L_r of a rail in each band [dB re 1 µm]; empty of any other scene."""
-        return kept(self.scene.roughness_levels)
+        """L_r of a rail in each band of the quantity [dB re 1 µm]; empty of any other scene."""
+        return kept(self.scene.added_to_filter(self.quantity)[0])
 
     def a3_of(self, candidate: Candidate) -> FloatArray:
-        """Contact filter of a model of a rail that was solved, whichever quantity was asked [dB]."""
+        """Contact filter of a model of a rail that was solved, whichever quantity was asked [dB].
+
+        Of sound power it is L_eq less L_r, both brought to bands of frequency.
+        """
+        roughness, over = self.scene.added_to_filter(self.quantity)
         value = self.value_of(candidate)
-        return kept(value - self.roughness) if self.quantity == "equivalent-roughness" else value
+        return kept(value - (roughness + over)) if roughness.size else value
 
     def seconds_of(self, candidate: Candidate) -> float:
         """Seconds that a model took; NaN where it was not solved, or not all models were asked."""
@@ -269,9 +274,18 @@ class Comparison:
 
     @cached_property
     def force(self) -> ContactForce | None:
-        """A-weighted force of a wheel on a rail at a constant height, by each model; None of any other scene."""
+        """A-weighted force of a wheel on a rail at a constant height, by each model; None of any other scene.
+
+        In files alone, and for one release: `power` is what differences of filters are meant in.
+        """
         force: ContactForce | None = self.scene.contact_force(self)
         return force
+
+    @cached_property
+    def power(self) -> SoundPower | None:
+        """Sound power of a wheel on a rail by each model; None of any other scene, and without a speed."""
+        power: SoundPower | None = self.scene.sound_power(self)
+        return power
 
     @property
     def models(self) -> ComparedModels:
@@ -282,7 +296,7 @@ OneOrSeveral = Comparison | Sequence[Comparison]
 """What functions of the face take."""
 
 
-def listed(comparison: OneOrSeveral) -> list[Comparison]:
+def comparisons_of(comparison: OneOrSeveral) -> list[Comparison]:
     """The comparisons as a list. Raises TypeError for anything else, ValueError for an empty list."""
     if isinstance(comparison, Comparison):
         return [comparison]

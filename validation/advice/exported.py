@@ -5,10 +5,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from validation.advice.compare import Comparison, OneOrSeveral, listed
+from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.table import (
     AXES,
     OF_FORCE,
+    OF_POWER,
     OF_RAIL,
     by_quantity,
     first_row,
@@ -26,7 +27,7 @@ SCHEMA = 2
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 CSV = (
     *("wavelength_mm", "frequency_hz", "value", "low", "high", "unit", "model", "selected", "statistic"),
-    *(*OF_RAIL, *OF_FORCE, "seconds", "swept", "swept_value", "swept_unit"),
+    *(*OF_RAIL, *OF_POWER, *OF_FORCE, "seconds", "swept", "swept_value", "swept_unit"),
 )
 """Columns of `result_table` in a CSV, where the table has them."""
 
@@ -51,7 +52,7 @@ def to_json(comparison: OneOrSeveral) -> str:
     >>> result["quantity"], result["unit"], result["model"], result["met"]
     ('stiffness', 'N/m', 'closed form', True)
     """
-    records = list(map(_record_of_comparison, listed(comparison)))
+    records = list(map(_record_of_comparison, comparisons_of(comparison)))
     return as_json(records[0] if isinstance(comparison, Comparison) else records).decode()
 
 
@@ -101,8 +102,8 @@ def to_csv(comparison: OneOrSeveral) -> str:
     str
         Columns wavelength_mm, frequency_hz, value, low, high, unit, model, selected; low and high end the 95 %
         interval; of rough bodies statistic, "ensemble mean" or "single surface". Of a rail also the levels
-        roughness_dB, a3_dB and equivalent_dB, with a speed those of the force; of all models their seconds; of a sweep
-        its value. A cell is empty where there is no number.
+        roughness_dB, a3_dB and equivalent_dB, with a speed the sums of sound power, and former ones of the force; of
+        all models their seconds; of a sweep its value. A cell is empty where there is no number.
 
     Examples
     --------
@@ -110,7 +111,7 @@ def to_csv(comparison: OneOrSeveral) -> str:
     >>> print(text.splitlines()[0])
     wavelength_mm,frequency_hz,value,low,high,unit,model,selected
     """
-    return as_csv(csv_table(listed(comparison))).decode()
+    return as_csv(csv_table(comparisons_of(comparison))).decode()
 
 
 def csv_table(comparisons: Sequence[Comparison]) -> Table:
@@ -160,6 +161,7 @@ def _record_of_model(table: Table) -> dict[str, object]:
         "reason": model["reason"],
         "value": _finite_numbers(table["value"]) if solved else None,
         "seconds": finite_or_none(model.get("seconds", math.nan)),
+        "sound_power_dBA": finite_or_none(model.get("sound_power_dBA", math.nan)),
         "force_sum_dBA": finite_or_none(model.get("force_sum_dBA", math.nan)),
     }
 

@@ -179,7 +179,7 @@ def select_model(
             candidate = _solve_candidate(candidate, callback, tolerance)
         selection = Selection(tolerance, (*selection.candidates, candidate))
     # the error of an answer may be more than another model claims
-    while not selection.met and (least := _least_estimate(selection)) is not None:
+    while not selection.met and (least := _most_promising_skipped(selection)) is not None:
         candidates = [
             _solve_candidate(candidate, callback, tolerance) if candidate is least else candidate
             for candidate in selection.candidates
@@ -287,8 +287,12 @@ def _solve_candidate(
     return replace(candidate, status=status, reason=answer.reason, answer=answer)
 
 
-def _least_estimate(selection: Selection) -> Candidate | None:
-    """The skipped model that may leave less than all solved ones; of equal estimates the dearest (finest grid)."""
+def _most_promising_skipped(selection: Selection) -> Candidate | None:
+    """The skipped model of the smallest predicted error, if that is below the errors of all solved ones; else None.
+
+    Of equal ones the dearest (finest grid). Where no predicted error is within the tolerance: the dearest alone, and
+    none once a model has been selected.
+    """
     skipped = [candidate for candidate in reversed(selection.candidates) if candidate.status == "skipped"]
     if all(candidate.estimate.of_scene > selection.tolerance for candidate in skipped):
         skipped = skipped[-1:] if selection.best is None else []

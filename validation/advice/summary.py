@@ -11,11 +11,11 @@ import numpy as np
 
 from validation.advice import advice as on_mdr
 from validation.advice.advice import is_solved, springs_of, what_would_help, would_help
-from validation.advice.compare import Comparison, OneOrSeveral, listed
-from validation.advice.contact_force import LEVELS
+from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.hierarchy import Candidate, Status
 from validation.advice.models_of_scene import quantity_of
 from validation.advice.scene_model import Answer
+from validation.advice.sound_power import LEVELS
 from validation.advice.table import (
     DIFFERENCES,
     TOGETHER,
@@ -69,7 +69,6 @@ BANDS: dict[str, tuple[str, Callable[[float], str]]] = {
     "a3_dB": ("A3", tenth),
     "equivalent_dB": ("L_eq", tenth),
     "error": ("± [dB]", two_digits),
-    "force_dBA": ("L_FA", tenth),
 }
 """Of a table of bands: head and cells, by the names that JSON and CSV have, in the order that is printed."""
 
@@ -94,7 +93,7 @@ def summary(comparison: OneOrSeveral) -> str:
     Smooth sphere: stiffness within 10 %
     """
     if not isinstance(comparison, Comparison):
-        comparisons = listed(comparison)
+        comparisons = comparisons_of(comparison)
         return "\n".join([*overview(comparisons), *help_with(comparisons)])
     understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
     return f"{understood}\n{findings([comparison], in_full)}"
@@ -108,9 +107,11 @@ def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> st
 
 
 def findings(comparisons: Sequence[Comparison], lines_of: Callable[[Sequence[Comparison]], Iterator[str]]) -> str:
-    """Text of quantities that share their solves; both quantities of a rail have one table. lines_of: as `in_full`."""
-    parts = [comparisons] if comparisons[0].roughness.size else [[comparison] for comparison in comparisons]
-    lines = [line for part in parts for line in lines_of(part)]
+    """Text of quantities with the same solves; of a rail those in the same bands share a table. lines_of: `in_full`."""
+    parts = dict[tuple[float, ...], list[Comparison]]()
+    for number, comparison in enumerate(comparisons):
+        parts.setdefault(tuple(comparison.roughness.tolist()) or (number,), []).append(comparison)
+    lines = [line for part in parts.values() for line in lines_of(part)]
     # no blank line below another
     single_spaced = [line for before, line in zip(["text", *lines], lines, strict=False) if line or before]
     return "\n".join(wrapped(single_spaced, indent=4))
@@ -128,8 +129,8 @@ def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
         yield from (result_of(quantity, best.answer) for quantity in quantities)
         yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
         yield from columns_as_lines(bands_of(comparison, best.name)) if comparison.is_level else ()
-        if force := comparison.force:
-            yield from ("", *force.sentences, *(f"  {line}" for line in columns_as_lines(force.table)), "")
+        if power := comparison.power:
+            yield from ("", *power.sentences, *(f"  {line}" for line in columns_as_lines(power.table)), "")
         yield from side_by_side(comparison)
         yield from (age_of_errors(comparison), cost_of(comparison))
     yield from (*what_would_help(comparison), *on_mdr.in_full(comparison))
@@ -335,7 +336,7 @@ def side_by_side(comparison: Comparison) -> Iterator[str]:
 
 
 def overview_of(comparisons: Sequence[Comparison]) -> Columns:
-    """A row a scene: the model that is enough, its error, that of MDR, and the result, one number or the force."""
+    """A row a scene: the model that is enough, its error, that of MDR, and the result, a number or the sound power."""
     several = len({comparison.quantity for comparison in comparisons}) > 1
     rows = [_row_of_scene(comparison, several) for comparison in comparisons]
     return {name: [row[name] for row in rows] for name in rows[0]}
@@ -348,7 +349,7 @@ def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
     if best is None:
         result = ""
     elif comparison.is_level:
-        result = force.shown if (force := comparison.force) else f"{comparison.value.size} bands"
+        result = power.shown if (power := comparison.power) else f"{comparison.value.size} bands"
     else:
         (value,), (half,) = comparison.value, comparison.errors_of(best)
         result = f"{scaled(float(value), float(half))} {comparison.unit}"
@@ -383,7 +384,8 @@ def error_of_levels(comparison: Comparison, answer: Answer) -> str:
     """In the unit of the tolerance and in dB, and in which bands."""
     level = f"{short(decibels(answer.error))} dB"
     both = level if comparison.in_decibels else f"{comparison.tolerance.shown(answer.error)} ({level})"
-    return f"{both} {'in the bands that count' if answer.band_errors else 'over all bands'}"
+    of_sum = "in the bands that count" if comparison.scene_quantity.by_worst_band else "of the sum in dB(A)"
+    return f"{both} {of_sum if answer.band_errors else 'over all bands'}"
 
 
 def age_of_errors(comparison: Comparison) -> str:
@@ -436,15 +438,15 @@ def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
 
 
 def _value_sentence(quantities: Sequence[Comparison], answer: Answer) -> str:
-    """One number with its error, or how many bands there are, of a rail with the force that they leave."""
+    """One number with its error, or how many bands there are, of a rail with the sound power that they leave."""
     comparison = quantities[0]
     name = comparison.quantity if len(quantities) == 1 else "both"
     of = f", {comparison.statistic}" if comparison.statistic else ""
     if not comparison.is_level:
         value = float(answer.value[0])
         return f"{name} = {scaled(value, value * answer.error)} {comparison.unit} by {comparison.model}{of}"
-    force = comparison.force
-    weighted = f", contact force {force.shown}" if force else ""
+    power = comparison.power
+    weighted = f", sound power {power.shown}" if power else ""
     return f"{name} by {comparison.model}: {comparison.value.size} bands{of}{weighted}"
 
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.advice.compare import Comparison
-from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import ALIKE, Candidate, bias
+from validation.advice.sound_power import ContactForce
 from validation.advice.tolerance import decibels, percentage
 from validation.analysis.evidence import Table, table_of
 from validation.engine.engine import FloatArray
@@ -22,7 +22,9 @@ TOGETHER = "both errors together: of the models the sum, of grid and sample the 
 """How the half-width of a difference follows from the errors of both models."""
 AXES, NUMBERS = ("wavelength_mm", "frequency_hz", "nominal_hz"), ("value", "low", "high", "error")
 OF_RAIL = ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
+OF_POWER = ("sound_power_dBA", "sound_power_over_selected_dB")
 OF_FORCE = ("force_sum_dBA", "force_over_selected_dB")
+"""Former columns, as force_dBA of `OF_RAIL`: a force has the wrong weight, also for differences of filters."""
 DIFFERENCES = ("difference_dB", "difference_error_dB")
 
 
@@ -37,7 +39,7 @@ def result_table(comparison: Comparison) -> Table:
         rank (from the cheapest on), model, is_mdr, selected, is_reference, solved, answered (also without a result),
         status, reason, predicted_error and relative_error (infinite where unknown), errors_by_band (or of all bands
         together), cost_s (predicted), spent_s, seconds (by the clock, where all models were asked); of a rough body
-        statistic, of a rail with a speed `OF_FORCE`, of a sweep swept, swept_value, swept_unit.
+        statistic, of a rail with a speed `OF_POWER` and `OF_FORCE`, of a sweep swept, swept_value, swept_unit.
     """
     solved, force = comparison.selection.solved, comparison.force
     reference = reference_of(comparison) if solved else None
@@ -113,10 +115,11 @@ def _columns_of_model(
     }
     if comparison.statistic:
         columns["statistic"] = comparison.statistic
-    if force:
-        known = name in force.levels
-        sums = (force.total(name), force.over_chosen(name)) if known else (math.nan, math.nan)
-        columns |= dict(zip(OF_FORCE, sums, strict=True))
+    for of_sum, weighted in ((OF_POWER, comparison.power), (OF_FORCE, force)):
+        if weighted:
+            known = name in weighted.levels
+            sums = (weighted.total(name), weighted.over_chosen(name)) if known else (math.nan, math.nan)
+            columns |= dict(zip(of_sum, sums, strict=True))
     if comparison.timed:
         columns["seconds"] = comparison.seconds_of(candidate)
     return columns | (swept_of(comparison) if comparison.swept else {})

@@ -302,11 +302,28 @@ def claim_status(numbers: Iterable[Number], inside: Iterable[Number], confirmed_
 
 
 class Whose(StrEnum):
-    """Who says so: a claim that its author would recognise, or what was found here."""
+    """Who states a claim: its author would recognise it, or it is a hypothesis of this suite."""
 
-    BOOK = "statements of the book"
-    FIELD = "statements of the field"
-    FINDING = "findings of ours"
+    BOOK = "the book"
+    LITERATURE = "the literature"
+    HYPOTHESIS = "our hypothesis"
+
+    @classmethod
+    def _missing_(cls, value: object) -> "Whose | None":
+        """The one whose value in files of schema 1 this is; None where there is none."""
+        return next((whose for whose, earlier in EARLIER_ORIGINS.items() if earlier == value), None)
+
+    @property
+    def earlier(self) -> str:
+        """Its value in files of schema 1, which schema 2 keeps for one release under the same key."""
+        return EARLIER_ORIGINS[self]
+
+
+EARLIER_ORIGINS = {
+    Whose.BOOK: "statements of the book",
+    Whose.LITERATURE: "statements of the field",
+    Whose.HYPOTHESIS: "findings of ours",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -325,7 +342,7 @@ class JudgedClaim:
     confirmed_by: Verdict = Verdict.WITHIN
     limits: str = ""
     inside: tuple[Number, ...] = ()
-    whose: Whose = Whose.FINDING
+    whose: Whose = Whose.HYPOTHESIS
     key: str = ""
 
     def __post_init__(self) -> None:

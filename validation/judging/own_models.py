@@ -44,7 +44,7 @@ from validation.judging.source_files import digest_of, file_of, sources_of
 from validation.judging.worker import Called, OthersError, Visitor, offered_in
 from validation.railway.problems.rail_models import ContactFilter, rail_quantity
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
-from validation.railway.problems.rail_strip import structure_of
+from validation.railway.problems.rail_strip import structure_of, uniform_parts
 from validation.scenes.load import load_scene
 from validation.scenes.rolling import QUANTITIES, RollingQuantity
 from validation.scenes.roughness import Roughness, RoughSurface
@@ -197,12 +197,15 @@ def _rolled(caller: Caller, target: Target, count: int) -> FloatArray:
 def _filtered(caller: Caller, target: Target, count: int) -> FloatArray:
     """A3 in bands, at both ends where the ground is not stated [dB]."""
     quantity, contact, powers = rail_quantity(target), target.scene.contact, []
-    bands = {"edges": quantity.bands.edges, "semi_axes": contact.semi_axes}
     arguments = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach}
-    for across in quantity.ends:
-        arguments["alpha"] = {"ridges": 0.0, "isotropic": math.inf}.get(str(across), across)
-        ground = structure_of(across if "k_y" in caller.asks else "ridges", quantity.line)
-        powers.append(ground.band_power(quantity.line, partial(_amplitude, caller, arguments), **bands))
+    for end in quantity.ends:
+        of_end = list[FloatArray]()
+        for across, edges in uniform_parts(end, quantity.bands.edges):
+            alpha = {"ridges": 0.0, "isotropic": math.inf}.get(str(across), across)
+            ground = structure_of(across if "k_y" in caller.asks else "ridges", quantity.line)
+            amplitude = partial(_amplitude, caller, {**arguments, "alpha": alpha})
+            of_end.append(ground.band_power(quantity.line, amplitude, edges=edges, semi_axes=contact.semi_axes))
+        powers.append(np.concatenate(of_end))
     return quantity.between(10 * np.log10(powers))
 
 

@@ -5,9 +5,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claim_text import listed
 from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell
-from validation.analysis.number_text import level_in_decibels
+from validation.analysis.number_text import enumeration, level_in_decibels
 from validation.cases.rolling.reduced_models import READ
 from validation.railway.cases import across, filters, rail_dynamic
 from validation.railway.cases.across_study import LOUDER
@@ -67,7 +66,7 @@ def globals_of(sections: Sequence[Section]) -> dict[str, Any]:
 
 
 def rail_filters(sections: Sequence[Section]) -> Table | None:
-    """A row a filter: its worst band [dB] over some grounds, and what it makes of the rms force [dB(A)]."""
+    """A row a filter: its worst band [dB] over some grounds, and what it makes of the sound power [dB(A)]."""
     evidence = _evidence("across", sections)
     tables = {table.name: table for table in evidence.page_tables} if evidence else {}
     worst = next((table for name, table in tables.items() if name.startswith(OF_A3)), None)
@@ -82,7 +81,7 @@ def rail_filters(sections: Sequence[Section]) -> Table | None:
         {
             "filter": worst.columns["model"],
             **{f"{WORST} {name}": worst.columns[name] for name in grounds},
-            **{f"rms force over {name} [dB(A)]": [loud.columns[name][row] for row in rows] for name in grounds},
+            **{f"sound power, {name} [dB(A)]": [loud.columns[name][row] for row in rows] for name in grounds},
         },
     )
 
@@ -92,7 +91,7 @@ def right_filters(table: Table) -> str:
     judged = [name for name in table.columns if name.startswith(WORST)]
     rows = zip(table.columns["filter"], *(table.columns[name] for name in judged), strict=True)
     names = [str(name) for name, *cells in rows if all(_agrees(cell) for cell in cells)] if judged else []
-    return listed(names) if names else ""
+    return enumeration(names) if names else ""
 
 
 def _agrees(cell: object) -> bool:

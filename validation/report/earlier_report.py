@@ -105,7 +105,7 @@ def _claim(case: str, entry: Mapping[str, Any], numbers: Mapping[str, Number]) -
     tested, inside = (tuple(numbers[label] for label in entry[of]) for of in ("numbers", "inside"))
     words = {name: entry[name] for name in ("claim", "answer", "limits")}
     origin, confirmed_by = (
-        Whose(entry.get("whose", Whose.FINDING)),
+        Whose(entry.get("stated_by") or entry.get("whose", Whose.HYPOTHESIS)),
         Verdict(value_of(entry, "confirmed_by", "confirmed by")),
     )
     key = entry.get("key") or _key_of(case, entry["claim"])

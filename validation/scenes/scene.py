@@ -197,6 +197,12 @@ class Scene(Protocol):
     def contact_force(self, comparison: Any) -> Any:
         """A-weighted force by each model of a comparison of this scene; None where it has none."""
 
+    def sound_power(self, comparison: Any) -> Any:
+        """Sound power by each model of a comparison of this scene; None where it has none."""
+
+    def added_to_filter(self, quantity: str) -> tuple[FloatArray, FloatArray]:
+        """L_r in each band of a quantity, empty where roughness is no line, and what the quantity is over L_r + A3."""
+
     def for_compare(self) -> "Scene":
         """The scene without what `compare` has no need of. Raises ValueError for one that no model takes."""
 
@@ -240,6 +246,12 @@ class SceneDefaults:
 
     def contact_force(self, comparison: Any) -> Any:
         return None
+
+    def sound_power(self, comparison: Any) -> Any:
+        return None
+
+    def added_to_filter(self, quantity: str) -> tuple[FloatArray, FloatArray]:
+        return np.empty(0), np.empty(0)
 
     def for_compare(self) -> Self:
         return self

@@ -311,7 +311,7 @@ def _split_lines(text: str) -> list[str]:
 
 
 def sample_of(lines: Sequence[str], skip: int) -> Sequence[str]:
-    """The first lines, and some below those to skip."""
+    """Lines from the top by which the dialect is recognised: those to skip, and at most `MOST_HEADER` below."""
     few = sum(characters <= SAMPLE for characters in accumulate(map(len, lines[skip : skip + MOST_HEADER])))
     return lines[: skip + min(max(few, RUN) + 1, MOST_HEADER)]
 

@@ -6,7 +6,7 @@ import numpy as np
 
 import bem3d
 from validation.engine.engine import Outcome
-from validation.simulation.rough_punch import LOST, Surface
+from validation.simulation.rough_punch import LOST, STIFFNESS_TOLERANCE, Surface
 
 
 def press_interface(surface: Surface) -> Outcome:
@@ -25,6 +25,7 @@ def press_interface(surface: Surface) -> Outcome:
         -height,
         forces=surface.roughness.height * np.array(surface.forces),
         stiffness=True,
+        stiffness_tolerance=STIFFNESS_TOLERANCE,
         tolerance=surface.tolerance,
         raise_on_failure=False,
     )

@@ -205,8 +205,11 @@ def rough_tracks(heights: Values, *, track: float, seed: int, springs: int = 32)
 
 
 def rough_strips(heights: Values, *, length: float, strip_cells: int, seed: int, width: float = 12.0) -> Outcome:
-    """Linear theory of the half-space against boundary elements on one strip in the same units; measured: its rms
-    gradient over h; failed: positions that did not converge."""
+    """By height h: rms of the difference of linear theory from boundary elements, over that of linear theory.
+
+    Along one strip, each at the same positions. measured: rms gradient of the strip over h; failed: positions that did
+    not converge.
+    """
     spectrum, failed = self_affine(HURST, 1.0, 8.0), []
 
     def point(height: float) -> Point:

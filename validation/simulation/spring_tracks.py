@@ -169,7 +169,7 @@ def refusals() -> dict[str, str]:
 
 
 def refusal(call: Callable[[], object]) -> str:
-    """The message of a call that is refused, else nothing."""
+    """The message of the ValueError that a call raises; empty where it raises none."""
     try:
         call()
     except ValueError as error:

@@ -589,6 +589,7 @@ def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], Flo
     track = bem3d.Track(height=height, spacing=1 / cells, radius=1.0, modulus=1.0)
 
     def roll(positions: int) -> FloatArray:
+        """The force at each of the first positions, in units of the scene."""
         wheel = bem3d.RollingContact(track, tolerance=tolerance)
         contacts = [wheel.press(position, SMOOTH["approach"]) for position in range(positions)]
         failed = sum(not contact.converged for contact in contacts)

@@ -14,7 +14,7 @@ from validation.analysis.evidence import Place
 from validation.analysis.series import Estimates, Margin, Where, masked, single
 from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statistic, jackknifed, log_mean
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.cases.punch.ensembles import OVER, change, of_rows, press
+from validation.cases.punch.ensembles import OVER, change, of_rows, press, with_solver
 from validation.engine.engine import Outcome
 from validation.simulation.interface import press_interface
 from validation.simulation.model_names import BEM
@@ -169,7 +169,7 @@ class Measured:
     def of(self, name: str = "stiffness", statistic: Statistic = log_mean) -> tuple[Estimates, Estimates]:
         """ln of the mean, by default, on cells of no size at each load, and the changes that leave its grid error."""
         finer = change(statistic, self.coarse[name], self.fine[name])
-        return Estimates(jackknifed(partial(of_rows, statistic), self.coarse[name])).on_no_size(finer), finer
+        return Estimates(jackknifed(partial(of_rows, statistic), self.coarse[name])).extrapolate_to_zero(finer), finer
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -197,7 +197,7 @@ def _of_interface(case: Interface, ground: Ground, measured: Measured) -> Iterat
     over_h, where = case.pressures(ground), _where(ground)
     stiffness, finer = measured.of()
     shown = partial(Series, SCALED, where=where, along=CONTACT, at=case.per_cent, shown=math.exp)
-    yield shown(BEM, stiffness - Estimates.exact(np.log(over_h)), grid=finer)
+    yield shown(BEM, stiffness - Estimates.exact(np.log(over_h)), grid=[*map(with_solver, finer)])
     yield shown(BARBER, np.full(over_h.size, math.log(case.height / float(measured.coarse["highest"].mean()))))
     spectrum = case.spectrum(ground)
     for model, gamma in GAMMAS.items():
@@ -225,10 +225,10 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
         logs = Estimates(jackknifed(partial(of_rows, log_mean), values))
         (on_punch, finer), (edgeless, left) = punch.of(name), interface.of(name)
         over = Estimates.exact(np.log(unit * np.ones(forces.size)))
-        yield shown(quantity, ON_PUNCH, on_punch - over, grid=finer)
+        yield shown(quantity, ON_PUNCH, on_punch - over, grid=[*map(with_solver, finer)])
         yield shown(quantity, MDR, logs - over)
         if name != "stiffness":
-            yield shown(quantity, EDGELESS, edgeless - over, grid=left)
+            yield shown(quantity, EDGELESS, edgeless - over, grid=[*map(with_solver, left)])
         yield from _at_each_load(case, ground, judged, OVER, logs - on_punch, finer)
     yield from _at_each_load(case, ground, EXPONENT, ON_PUNCH, *punch.of(statistic=slope), None)
     slopes = Estimates(jackknifed(partial(of_rows, slope), springs["stiffness"]))
@@ -238,7 +238,7 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
     coarse, fine = (np.stack([p["stiffness"], i["stiffness"]], axis=1) for p, i in zip(punch, interface, strict=True))
     both = np.stack([coarse[: len(fine)], fine], axis=1)
     finer = Estimates(jackknifed(lambda rows: _over_series(rows[:, 1]) - _over_series(rows[:, 0]), both))
-    ratios = Estimates(jackknifed(_over_series, coarse)).on_no_size(finer)
+    ratios = Estimates(jackknifed(_over_series, coarse)).extrapolate_to_zero(finer)
     yield from _at_each_load(case, ground, OF_SERIES, BEM, ratios, finer)
 
 
@@ -260,7 +260,7 @@ def _at_each_load(
     """A number at each load; of exponents for each step between light loads."""
     places: Sequence[Place] = [step for step in pairwise(case.per_cent) if step[1] <= 100 * LIGHT]
     places, unit = (places, ONE) if quantity == EXPONENT else (case.per_cent, DECIBELS)
-    for place, value, left in zip(places, values, finer, strict=False):
+    for place, value, left in zip(places, values, map(with_solver, finer), strict=False):
         where: Where = {**_where(ground), CONTACT: place}
         family = len(places) * len(case.grounds)
         yield Series(quantity, model, (value,), where=where, grid=(left,), margin=margin, family=family, **unit)

@@ -3,10 +3,10 @@
 from functools import partial
 
 from validation.analysis.chart import by_model
-from validation.analysis.claim_text import NOT_THIS_CURVE, listed
+from validation.analysis.claim_text import NOT_THIS_CURVE
 from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Table, Whose, numbers_with
-from validation.analysis.number_text import per_cent, times
+from validation.analysis.number_text import enumeration, per_cent, times
 from validation.analysis.series import numbers_of
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.punch.ensembles import worked
@@ -54,12 +54,12 @@ def notes(result: Outcomes) -> list[str]:
     by_size = {n.where[ROLL_OFF]: per_cent(n) for n in numbers_with(numbers, BESIDE_BEM, FITTED, **lightest)}
     if len(by_size) < MANY:
         return []
-    errors = listed([f"{by_size[size]} at {ROLL_OFF} = {size:g}" for size in sorted(by_size)])
+    errors = enumeration([f"{by_size[size]} at {ROLL_OFF} = {size:g}" for size in sorted(by_size)])
     return [f"Under the lightest load, H = {case.pressed[1]:g}, the stiffness of Persson's theory is off by {errors}."]
 
 
 of_interface = partial(
-    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.FIELD
+    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.LITERATURE
 )
 MANY = 3
 """Sizes of the face that show whether it matters."""

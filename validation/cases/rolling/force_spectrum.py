@@ -184,7 +184,7 @@ def of_bem(
     bem, fine = result[BEM, height], summed(result[REFINED, height]["level"])
     level, linear = (summed(bem[name]) for name in ("level", "linear level"))
     finer = Estimates.ratios(fine, level[: len(fine)])
-    return Estimates.ratios(level, linear).on_no_size(finer), finer
+    return Estimates.ratios(level, linear).extrapolate_to_zero(finer), finer
 
 
 def _curve(result: Outcomes, height: float) -> Iterator[Series]:
@@ -208,7 +208,7 @@ def _curve(result: Outcomes, height: float) -> Iterator[Series]:
     yield decibels(MEAN_LEVEL, f"{SPRINGS} over {MEAN_1D}", over, margin=margin)
     bem, fine = (result[grid, height] for grid in (BEM, REFINED))
     finer = Estimates.ratio(fine["level"], bem["level"][: len(fine["level"])], weights)
-    linear = Estimates.ratio(bem["level"], bem["linear level"], weights).on_no_size(finer)
+    linear = Estimates.ratio(bem["level"], bem["linear level"], weights).extrapolate_to_zero(finer)
     yield decibels(MEAN_LEVEL, UNBOUNDED, (-math.log(level_ratio(case.hurst)),))
     of_band = over_bands(lambda q: filters[1](q, TrackSpectrum(case.spectrum, "geike")), case.bands) / HERTZ**2
     exact = np.log((of_band / level_3d(case.spectrum, case.bands))[short]).mean()
@@ -270,10 +270,10 @@ def _force(result: Outcomes, height: float) -> Iterator[Series]:
     over = partial(Series, where=at(result.case, height), unit="dB", margin=OF_FORCE)
     of_rms = partial(over, RMS_FORCE, scale=POWER_DECIBEL, grid=finer)
     for model, level in ((SPRINGS, in_1d), (LINEAR_3D, Estimates.exact(0.0, in_3d[0].samples))):
-        yield of_rms(model + OVER, level - in_3d.on_no_size(finer))
+        yield of_rms(model + OVER, level - in_3d.extrapolate_to_zero(finer))
     mean, in_1d = (Estimates.ratios(rows["mean"], np.ones(1)) for rows in (bem, springs))
     finer = Estimates.ratios(fine["mean"], bem["mean"][: len(fine["mean"])])
-    yield over(MEAN_FORCE, SPRINGS + OVER, in_1d - mean.on_no_size(finer), scale=DECIBEL, grid=finer)
+    yield over(MEAN_FORCE, SPRINGS + OVER, in_1d - mean.extrapolate_to_zero(finer), scale=DECIBEL, grid=finer)
 
 
 def _roughness(result: Outcomes, height: float) -> Iterator[Series]:

@@ -13,8 +13,8 @@ from validation.analysis.series import MARGINS, Estimates, Margin
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.statistics import Estimate, FloatArray, jackknifed, ratio_of_means
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.cases.wheel import features
-from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
+from validation.cases.wheel import ensembles
+from validation.cases.wheel.ensembles import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
 from validation.engine.engine import Outcome
 from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
@@ -73,11 +73,11 @@ class WheelDistance:
         """
         counts = [round(self.wheels * 2 ** (self.doublings / 2 - i)) for i in range(self.doublings + 1)]
         counts = [max(self.fewest, min(self.wheels, count)) // self.groups * self.groups for count in counts]
-        ensembles = {}
+        problems = {}
         for i, count in reversed(list(enumerate(counts))):
             scene = replace(self.scene, distance=self.periods * self.scene.period_length * 2**i)
-            ensembles["distance", i] = WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed)
-        return ensembles
+            problems["distance", i] = WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed)
+        return problems
 
     def ensemble(self, kind: Kind, height: float = 1.0, short: bool = False) -> WheelEnsemble:
         """A steady state lasts a round; a part of one, and the motion from rest, are recorded over half of it."""
@@ -113,11 +113,9 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> Outcomes:
     ensemble do not converge.
     """
     _check_regions(case.scene)
-    ensembles = case.ensembles()
-    outcomes = dict(zip(ensembles, engine.map(simulate_ensemble, list(ensembles.values())), strict=True))
-    failed = [
-        (ensemble, int(outcomes[key]["failed"])) for key, ensemble in ensembles.items() if outcomes[key]["failed"]
-    ]
+    problems = case.ensembles()
+    outcomes = dict(zip(problems, engine.map(simulate_ensemble, list(problems.values())), strict=True))
+    failed = [(ensemble, int(outcomes[key]["failed"])) for key, ensemble in problems.items() if outcomes[key]["failed"]]
     unconverged = tuple(
         f"{count} of {ensemble.count} wheels do not repeat their motion, h₀ = {ensemble.scene.rms:.3g} m"
         for ensemble, count in failed
@@ -178,7 +176,7 @@ class Record(NamedTuple):
 
     def of(self, result: Outcomes, band: tuple[float, float], model: str = "") -> FloatArray:
         """The mean of A in a band, wheel by wheel."""
-        return features.of_groups(result[self.kind._replace(model=model or self.kind.model)], band, self.window)
+        return ensembles.of_groups(result[self.kind._replace(model=model or self.kind.model)], band, self.window)
 
 
 RECORDS = {
@@ -201,17 +199,20 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     case, rows = result.case, []
     for key, ensemble in reversed(case.distances().items()):
         scene, outcome, distance = ensemble.scene, result[key], ensemble.steps * ensemble.scene.spacing
-        spectrum = features.Spectrum.of(scene, [outcome])
-        measured, by_jumps = features.measured(spectrum)[features.BREAK], features.expected(spectrum)[features.BREAK]
+        spectrum = ensembles.Spectrum.of(scene, [outcome])
+        measured, by_jumps = (
+            ensembles.measured(spectrum)[ensembles.BREAK],
+            ensembles.expected(spectrum)[ensembles.BREAK],
+        )
         low, high = 1.5 * float(outcome["omega"][0]), 1.6 * scene.cutoff
-        omega, density = features.in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
+        omega, density = ensembles.in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
         spectra = partial(density_of, SPECTRA, where={DISTANCE: round(distance, 3)})
         yield spectra("spectrum", density, at=omega)
         at_break = math.exp(np.interp(np.log(measured.value), np.log(omega), np.log(density)))
         yield spectra("break", (at_break,), at=(measured.value,))
         rows.append((spectrum.duration, by_jumps, measured))
     t, predicted, breaks = zip(*rows, strict=True)
-    law = break_exponent(features.hurst(case.scene))
+    law = break_exponent(ensembles.hurst(case.scene))
     middle = math.exp(np.mean(np.log(Estimates(breaks).values) - law * np.log(t)))
     by_duration = partial(Series, BREAK_AT, along=DURATION, at=t)
     yield by_duration("found", breaks)
@@ -232,12 +233,12 @@ def law_of_break(t: FloatArray, breaks: Estimates) -> Estimate:
 def _regions(result: Outcomes) -> Iterator[Series]:
     """Spectra and levels of every record; what a linear contact has of regions 1 and 2; what is left of region 4."""
     scene = result.case.scene
-    bands = features.regions_of(scene)
+    bands = ensembles.regions_of(scene)
     for name, record in RECORDS.items():
         for model in (SPRINGS, LINEAR):
             outcome = result[record.kind._replace(model=model)]
             mean, ends = outcome[record.window].mean(axis=0), (0.5 * scene.eigenfrequency, 4 * scene.cutoff)
-            omega, density = features.in_sixths(outcome["omega"], mean, *ends)
+            omega, density = ensembles.in_sixths(outcome["omega"], mean, *ends)
             yield density_of(BY_KIND, f"{model}, {name}", density, at=omega)
         for region, band in bands.items():
             for model in (SPRINGS, LINEAR):
@@ -266,7 +267,7 @@ def second_order(scene: RollingScene, omega: FloatArray) -> FloatArray:
     """A of the second order below the jump; zero from there on."""
     density, inside = np.zeros(omega.size), omega < scene.jump
     q_max = scene.cutoff / scene.rolling_speed
-    density[inside] = theory_of(scene).acceleration(omega[inside], features.roughness(scene), q_max=q_max)
+    density[inside] = theory_of(scene).acceleration(omega[inside], ensembles.roughness(scene), q_max=q_max)
     return density
 
 
@@ -280,7 +281,7 @@ def _second_order(result: Outcomes) -> Iterator[Series]:
 
 
 def _over_second_order(scene: RollingScene, outcome: Outcome, family: int) -> Iterator[Series]:
-    omega, bands = outcome["omega"], features.regions_of(scene)
+    omega, bands = outcome["omega"], ensembles.regions_of(scene)
     theory, place = second_order(scene, omega), at_height(scene)
     damping = {DAMPING: f"{100 * scene.damping:g} % of critical" if scene.damping else "none"}
     for region, edges in ((FIRST, np.array(bands[FIRST])), (PLATEAU, one_third_octaves(*bands[PLATEAU]))):
@@ -290,7 +291,7 @@ def _over_second_order(scene: RollingScene, outcome: Outcome, family: int) -> It
             SPRINGS,
             Estimates.ratios(levels, reference),
             where={"region": region, **damping, **place},
-            along=features.OMEGA,
+            along=ensembles.OMEGA,
             at=np.sqrt(edges[1:] * edges[:-1]),
             family=family,
             margin=OF_SECOND_ORDER,
@@ -310,7 +311,7 @@ def _contrasts(scene: RollingScene, outcome: Outcome) -> Iterator[Series]:
     omega, at, theory = outcome["omega"], maxima_of(scene), second_order(scene, outcome["omega"])
 
     def contrasts(groups: FloatArray) -> FloatArray:
-        return -features.log_beside_over_at(omega / scene.oscillation_period, groups.mean(axis=0) * omega**2, at)
+        return -ensembles.log_beside_over_at(omega / scene.oscillation_period, groups.mean(axis=0) * omega**2, at)
 
     yield decibels(
         CONTRAST,
@@ -330,5 +331,5 @@ def _contrasts(scene: RollingScene, outcome: Outcome) -> Iterator[Series]:
 
 def maxima_of(scene: RollingScene) -> FloatArray:
     """The numbers n of the maxima q a = n pi of cos²(q a) that have both of their zeros in region 2."""
-    last = features.regions_of(scene)[PLATEAU][1]
+    last = ensembles.regions_of(scene)[PLATEAU][1]
     return np.arange(1.0, math.floor(last / scene.oscillation_period - 0.5) + 1)

@@ -9,7 +9,7 @@ from validation.analysis.number_text import share
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
-from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
+from validation.cases.wheel.ensembles import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
 from validation.simulation import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 

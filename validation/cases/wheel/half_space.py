@@ -12,7 +12,7 @@ from validation.analysis.series import Estimates
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.analysis.statistics import FloatArray
 from validation.case import SERIAL, Engine, Outcomes
-from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d
+from validation.cases.wheel.ensembles import TABLE, accelerated_by, linear_force_3d
 from validation.engine.engine import Outcome
 from validation.engine.realisations import FEWEST, NotConvergedError, require_realisations
 from validation.scenes.rolling import RollingScene
@@ -161,7 +161,7 @@ class WheelLevels:
     def ratio(self) -> Estimates:
         """ln of boundary elements over the linear contact on the same strips, band by band, on cells of no size."""
         ratio = Estimates.ratios(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
-        return ratio.on_no_size(self.change)
+        return ratio.extrapolate_to_zero(self.change)
 
     @property
     def grids(self) -> tuple[list[Outcome], list[Outcome]]:

@@ -13,9 +13,9 @@ from validation.analysis.evidence import Table, Whose
 from validation.analysis.series import MARGINS, Estimates
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study
-from validation.cases.wheel import features
+from validation.cases.wheel import ensembles
 from validation.cases.wheel import half_space as wheel
-from validation.cases.wheel.features import LEVEL, OMEGA, QUANTITIES, SLOPE, decibels
+from validation.cases.wheel.ensembles import LEVEL, OMEGA, QUANTITIES, SLOPE, decibels
 from validation.scenes.description import slope_ratio
 from validation.scenes.rolling import RollingScene
 from validation.simulation import model_needed
@@ -81,7 +81,7 @@ def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
             model,
             jackknifed(of, density),
             where={"region": "region 3"},
-            reference=-2 * features.hurst(scene) - 3,
+            reference=-2 * ensembles.hurst(scene) - 3,
             grid=2 * abs(fine - coarse),
             family=OF_FIGURE,
             margin=MARGINS[SLOPE].with_source("-2 H - 3, (14.13); the same in linear theory in 3D"),
@@ -102,13 +102,13 @@ def _spectra(levels: wheel.WheelLevels) -> dict[str, tuple[FloatArray, FloatArra
 def zeros_of(scene: RollingScene) -> FloatArray:
     """The numbers n of the zeros q a = n pi that have both of their maxima in region 3."""
     first, last = scene.jump / scene.oscillation_period, scene.cutoff / scene.oscillation_period
-    return np.arange(np.ceil(first + 0.5 + features.HALF_BAND), np.floor(last - 0.5 - features.HALF_BAND) + 1)
+    return np.arange(np.ceil(first + 0.5 + ensembles.HALF_BAND), np.floor(last - 0.5 - ensembles.HALF_BAND) + 1)
 
 
 def log_contrasts(omega: FloatArray, density: FloatArray, scene: RollingScene) -> FloatArray:
     """ln of the mean of A omega^(2 H + 3) about the two maxima beside each zero, over that about the zero."""
-    flat = density * omega ** (2 * features.hurst(scene) + 3)
-    return features.log_beside_over_at(omega / scene.oscillation_period, flat, zeros_of(scene))
+    flat = density * omega ** (2 * ensembles.hurst(scene) + 3)
+    return ensembles.log_beside_over_at(omega / scene.oscillation_period, flat, zeros_of(scene))
 
 
 def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
@@ -120,7 +120,7 @@ def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
             return log_contrasts(omega, rows.mean(axis=0), scene)
 
         by_zero = partial(decibels, CONTRAST, along=ZERO, at=zeros_of(scene))
-        linear = log_contrasts(omega, features.linear_spectrum(scene, omega), scene)
+        linear = log_contrasts(omega, ensembles.linear_spectrum(scene, omega), scene)
         margin = MARGINS["contrast"].with_source("linear theory in one dimension in the same bands")
         compared = {"reference": Estimates.exact(linear), "family": OF_FIGURE, "margin": margin}
         yield by_zero(model, jackknifed(of, density), **compared if model == wheel.BEM else {})
@@ -234,7 +234,7 @@ CASE = Case(
     answers="Boundary elements inside the time loop: the wheel in three dimensions, against every cheaper model",
     quick=wheel.Wheel3D(strips=3, wheels=30),
     full=wheel.Wheel3D(
-        scene=features.TABLE,
+        scene=ensembles.TABLE,
         strips=24,
         periods=2,
         width=4,

@@ -18,7 +18,7 @@ from scipy.special import erfinv
 import bem3d
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.statistics import DECIBEL
-from validation.cases.wheel import features
+from validation.cases.wheel import ensembles
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.judging.judgement import DEVIATION
@@ -48,7 +48,7 @@ SPRINGS_OVER = f"{SPRINGS} over {BEM}"
 CONTACT = "contact in Persson's theory [%]"
 TENTH = 1.2816
 """Of a Gaussian, its deviations to the highest tenth."""
-FEATURES = tuple(features.QUANTITIES.values())
+FEATURES = tuple(ensembles.QUANTITIES.values())
 
 
 @dataclass(frozen=True)

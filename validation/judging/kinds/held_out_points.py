@@ -29,7 +29,7 @@ from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Density, Q, W
 from validation.judging.kinds.stiffness import BAND, FIRST, FORCE, MEAN, H
 from validation.judging.registry import Caller, Failed
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
-from validation.simulation.rough_punch import PunchRoughness, Surface, press_lightly
+from validation.simulation.rough_punch import PunchRoughness, Surface, left_by_solver, press_lightly
 from validation.simulation.surface import draw_surface
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 
@@ -243,7 +243,7 @@ def pressed(engine: Engine) -> Iterator[Reference]:
         for force, pair in zip(LOADS, zip(mean, finer, strict=True), strict=True):
             value, left = extrapolated(*pair)
             where = {H: punch.hurst, FIRST: float(punch.first), BAND: float(punch.ratio), FORCE: force}
-            yield Reference(where, math.exp(value.value), value.half_width, left)
+            yield Reference(where, math.exp(value.value), value.half_width, math.hypot(left, left_by_solver()))
 
 
 OF_PUNCHES: dict[str, Any] = {

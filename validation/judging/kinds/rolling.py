@@ -88,7 +88,10 @@ Density = Callable[[FloatArray, WheelAtApproach, mdr.SelfAffine], FloatArray]
 
 
 def judged(model: Caller) -> Iterator[Finding]:
-    """Position by position on short strips; at a given approach levels, variance and mean on strips of the case too."""
+    """Findings of a model of the force on a wheel: its deviation at each position of short strips, by h/d.
+
+    Of a model that takes the approach also octave levels, rms and mean of the force on the strips of the case.
+    """
     for height in HEIGHTS:
         yield _position_by_position(model, height)
     if "approach" in model.asks:

@@ -20,7 +20,14 @@ from validation.judging.judgement import RATIO, Conditions
 from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, compared, rule
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.registry import Caller, Failed, FloatArray
-from validation.simulation.rough_punch import PlateauSpectrum, PunchRoughness, Surface, force_levels, press_lightly
+from validation.simulation.rough_punch import (
+    STIFFNESS_ERROR,
+    PlateauSpectrum,
+    PunchRoughness,
+    Surface,
+    force_levels,
+    press_lightly,
+)
 
 SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
 """L [m], E* [Pa] and h / L at which a model is asked: k / (E* L) is that of any others."""
@@ -327,8 +334,9 @@ def solved_surfaces(engine: Engine) -> Iterator[Reference]:
 def on_finer_grid(
     wheres: Sequence[Conditions], forces: Sequence[float], coarse: Sequence[Outcome], fine: Sequence[Outcome]
 ) -> Iterator[Reference]:
-    """Of each surface, under its conditions; as much is left as both grids differ, as in `solved`."""
+    """Of each surface, under its conditions; what both grids differ is left, as in `solved`, and by residuals."""
     logs = [np.log([outcome["stiffness"] for outcome in outcomes]) for outcomes in (coarse, fine)]
     left = student(len(wheres)) * np.sqrt(np.mean((logs[1] - logs[0]) ** 2, axis=0))
+    left = np.hypot(left, 5 * STIFFNESS_ERROR)
     for (i, j), value in np.ndenumerate(logs[1]):
         yield Reference({**wheres[i], FORCE: forces[j]}, math.exp(value), grid=float(left[j]))

@@ -204,7 +204,7 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(quantity=RMS + MOVING, whose=Whose.FIELD, along=OFFSET, printed=decibels_rms).saying(
+        Claim(quantity=RMS + MOVING, whose=Whose.LITERATURE, along=OFFSET, printed=decibels_rms).saying(
             "The contact filter of constant load holds for a wheel in motion.",
             short="The contact filter in motion agrees with that of constant load, rms over bands",
             key="motion",

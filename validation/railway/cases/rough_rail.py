@@ -103,7 +103,7 @@ def notes(result: rolled.RolledFiltersResult) -> list[str]:
     return [
         f"The mean of the heights of {case.lines} parallel lines {low.where[SPACING]:g} mm apart is off by "
         f"{low.value:+.1f} dB over {low.where[ACROSS]}, at a wave of {low.where['worst at']:g} mm. "
-        "Average their spectra."
+        "For a level, average their spectra; a mean of heights is a filter of its own."
     ]
 
 
@@ -131,7 +131,9 @@ STUDY = Study(
         "h' larger. Lines: {c.lines} parallel ones, {c.spacings:g} m apart. The mean of their heights is an integral "
         "over what lies across; waves with |k_y| < alpha k_x lie between ridges and isotropic ground. The energy mean "
         "of their spectra has the levels of one line in the mean of all realisations, and scatters less. The mean of "
-        "heights is itself a filter: a filter of the ellipse that is applied to it counts this twice."
+        "heights is itself a filter: of lines 0.71 a_y apart it stands for the filter of the ellipse across the track "
+        "(case across), and a filter of the ellipse that is applied to it counts this twice. No level is "
+        "taken from a mean of heights."
     ),
     series=series,
     claims=(

@@ -47,7 +47,10 @@ MOST_NUMBERS = 2**21
 
 
 def springs_along(along: FloatArray, across: FloatArray, *, semi_axes: tuple[float, float]) -> FloatArray:
-    """(14.11), whatever lies across."""
+    """sin(k_x a) / (k_x a), (14.11) of springs along the track: the filter of a wave whatever its k_y.
+
+    along, across: wavenumbers k_x and k_y [rad/m], of shapes that broadcast; a: the first of the semi-axes [m].
+    """
     return np.sinc((along + 0 * across) * semi_axes[0] / np.pi)
 
 

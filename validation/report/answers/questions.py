@@ -11,7 +11,7 @@ from validation.cases.punch import interface
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
-from validation.cases.wheel.features import LEVEL
+from validation.cases.wheel.ensembles import LEVEL
 from validation.cases.wheel.half_space_study import WHEEL
 from validation.engine.street import objects_of_houses
 from validation.report.answers.question import (
