@@ -87,8 +87,8 @@ FULL = Precision(
     fractal=RoughPunchProblem(
         realisations=100,
         profiles=500,
-        grids=Grids(cells=(96, 128, 192, 256, 512, 1024), fixed=128),
-        springs=(96, 128, 256, 512, 1024, 2048),
+        grids=Grids(cells=(96, 128, 192, 256, 512), fixed=128),
+        springs=(96, 128, 256, 512, 1024),
     ),
     rolled_off=RolledOffPunchProblem(
         realisations=100,
