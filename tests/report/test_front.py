@@ -13,7 +13,12 @@ from tests.seeded import catches
 from validation.analysis.evidence import Number, Table, Verdict, VerdictCell, Whose, table_of
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
 from validation.benchmarks.work_precision.pareto import CHEAPEST_SETTING, FACTOR, SHOWN, TOLERANCES
-from validation.benchmarks.work_precision.problem import BEM_METHOD, RollingProblem, RoughPunchProblem
+from validation.benchmarks.work_precision.problem import (
+    BEM_METHOD,
+    RolledOffPunchProblem,
+    RollingProblem,
+    RoughPunchProblem,
+)
 from validation.cases.limits.limits import SUMMARY
 from validation.cases.wheel.ensembles import LEVEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
@@ -91,7 +96,12 @@ def timed(unit="%", value=3.5, half=0.5, verdict=WITHIN, scene=RoughPunchProblem
     steps = {"method": ["springs", "boundary elements"], "a/dx": [100, 40]}
     hours = {"Fig. 14.4 [h]": [0.001, 4.0], "from [h]": [0.0008, 3.0], "to [h]": [0.0016, 6.0]}
     section = section_of(claim([Verdict.WITHIN]))
-    settings = {"fractal": {"force": 0.1}, "rolling": {"hurst": 0.7, "height": 0.1, "last": 10.0}}
+    rolled_off = {"hurst": 0.7, "waves": 16, "roll_off": 4, "force": 2.36}
+    settings = {
+        "fractal": {"force": 0.1},
+        "rolled_off": rolled_off,
+        "rolling": {"hurst": 0.7, "height": 0.1, "last": 10.0},
+    }
     precision = replace(section, name="precision", entry=TIMED["precision"], settings=settings)
     tables = table_of(CHEAPEST_SETTING, rows), Table(COST_OF_STEPS, {**steps, "one wheel [s]": [0.01, 50.0], **hours})
     return replace(precision, evidence=replace(section.evidence, tables=tables))
@@ -139,7 +149,12 @@ def test_the_dynamic_wheel_has_a_row_with_the_error_of_its_worst_band():
 
 
 @pytest.mark.parametrize(
-    ("scene", "place"), [(RoughPunchProblem.name, "Fbar = 0.1"), (RollingProblem.name, "h' a/d = 0.19")]
+    ("scene", "place"),
+    [
+        (RoughPunchProblem.name, "Fbar = 0.1"),
+        (RolledOffPunchProblem.name, "10 % contact in Persson's theory"),
+        (RollingProblem.name, "h' a/d = 0.19"),
+    ],
 )
 def test_seconds_are_of_a_place_on_the_axis_of_the_answers(scene, place):
     """g^2 = int q^3 C_2D = h^2 2 H (last^(2 - 2 H) - 1) / ((2 - 2 H) (1 - last^(-2 H))), half of it along a line."""

@@ -142,7 +142,7 @@ def cheapest_settings(charts: Sequence[Sequence[Point]]) -> Table:
     error: with the half-widths that the sample and the reference leave, in the unit; verdict: by all of its interval;
     time: median of one realisation, with its 95 % interval; FACTOR: T_BEM / T with its interval, of the cheapest
     boundary elements within the same tolerance: both are measured, nothing lies between settings. A method without
-    such a setting has its finest one, and no factor.
+    such a setting has its closest one, and no factor.
     """
     return table_of(CHEAPEST_SETTING, [row for chart in charts for row in _rows_of_chart(chart)])
 
@@ -158,7 +158,8 @@ def _rows_of_chart(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
         for method, points in groups.items():
             chosen = cheapest(points, tolerance)
             factor = time_over(elements, chosen) if elements and chosen and method != BEM_METHOD else None
-            yield _row_of_setting(method, chosen or min(points, key=lambda p: p.rank), tolerance, bool(chosen), factor)
+            closest = min(reversed(points), key=lambda point: point.rank)
+            yield _row_of_setting(method, chosen or closest, tolerance, bool(chosen), factor)
 
 
 def _row_of_setting(

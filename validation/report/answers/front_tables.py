@@ -1,5 +1,6 @@
 """The table of times within the same tolerance on the front page, and where boundary elements fail."""
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -13,17 +14,20 @@ from validation.benchmarks.work_precision.problem import (
     BEM_METHOD,
     FILTER_3D,
     SPRINGS,
+    RolledOffPunchProblem,
     RollingProblem,
     RoughPunchProblem,
 )
 from validation.cases.limits.limits import SUMMARY
 from validation.cases.punch.ensembles import FORCE
+from validation.cases.punch.interface import CONTACT
 from validation.cases.rolling.force_spectrum import SLOPE
 from validation.cases.wheel import half_space
 from validation.cases.wheel.ensembles import LEVEL
 from validation.report.answers.question import BEM, TIMES
 from validation.report.section import Section
 from validation.scenes.description import slope_ratio
+from validation.simulation.track_spectrum import PiecewisePowerLaw
 
 Row = dict[str, Any]
 
@@ -94,13 +98,22 @@ def _place_on_axis(row: Mapping[str, Any], section: Section) -> str:
     settings: Mapping[str, Any] = section.settings
     if row["scene"] == RoughPunchProblem.name:
         return placed(FORCE, f"{settings['fractal']['force']:g}")
+    if row["scene"] == RolledOffPunchProblem.name:
+        return placed(CONTACT, f"{100 * persson_contact(**settings['rolled_off']):.2g}")
     settings_of_scene = {name: settings["rolling"][name] for name in ("hurst", "height", "last")}
     scene = RollingProblem(**settings_of_scene).scene
     slope = slope_ratio(scene.ground.slope_along, scene) if scene.ground else 0.0
     return placed(SLOPE, f"{slope:.2g}")
 
 
-ASKED = (RoughPunchProblem.name, RollingProblem.name)
+def persson_contact(*, hurst: float, waves: int, roll_off: int, force: float, **_: object) -> float:
+    """Relative contact area predicted by Persson's theory: erf(sqrt(2) Fbar / (g / h)), g = rms abs(grad h)."""
+    edges = tuple(2 * math.pi * n for n in (1, roll_off, waves))
+    law = PiecewisePowerLaw(edges=edges, exponents=(0.0, 2 * hurst + 2))
+    return math.erf(math.sqrt(2) * force / law.gradient)
+
+
+ASKED = (RoughPunchProblem.name, RolledOffPunchProblem.name, RollingProblem.name)
 """Scenes of the answers; others have closed forms."""
 REDUCED = (*SPRINGS, FILTER_3D)
 """Models that have a row wherever they have the quantity, within tolerance or not."""

@@ -17,6 +17,7 @@ from validation.report.figures import precision, race
 
 OWN: Mapping[str, Callable[..., Figure]] = {
     "precision": precision.draw,
+    "precision-rolled-off": precision.draw_rolled_off,
     "precision-others": precision.draw_others,
     "race": race.draw,
 }

@@ -1,6 +1,6 @@
 """Figures of error against cost, a chart a quantity: of what has no closed form, and of what has one."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from matplotlib.ticker import LogLocator
 from validation.analysis.evidence import Table
 from validation.benchmarks.timing import FINISHED
 from validation.benchmarks.work_precision.pareto import SHOWN, TOLERANCES
+from validation.benchmarks.work_precision.problem import RolledOffPunchProblem
 from validation.report.drawing import name_curves
 from validation.report.style import BARS, GUIDE, SOFT, Style, panels, styles_of
 
@@ -24,22 +25,25 @@ ROOM = 3.0
 
 
 def draw(points: Table) -> Figure:
-    """Error against seconds, of what has no closed form: the questions of the front page."""
-    return _draw(points, without_closed_form=True)
+    """Error against seconds, of what has no closed form: the punch of Fig. 14.1 and the rolling wheel."""
+    return _draw(points, lambda scene, exact: not exact and scene != RolledOffPunchProblem.name)
+
+
+def draw_rolled_off(points: Table) -> Figure:
+    """The same of the punch with a roll-off."""
+    return _draw(points, lambda scene, exact: scene == RolledOffPunchProblem.name)
 
 
 def draw_others(points: Table) -> Figure:
-    """The same of what has one."""
-    return _draw(points, without_closed_form=False)
+    """The same of what has a closed form."""
+    return _draw(points, lambda scene, exact: exact)
 
 
-def _draw(points: Table, *, without_closed_form: bool) -> Figure:
+def _draw(points: Table, shows: Callable[[str, bool], bool]) -> Figure:
+    """A panel a chart; shows: whether a scene, with or without a closed form, is drawn."""
     exact = set(zip(*(points.rows(points["reference itself"])[name] for name in CHART), strict=True))
-    charts = [
-        key
-        for key in dict.fromkeys(zip(*(points[name] for name in CHART), strict=True))
-        if without_closed_form != (key in exact)
-    ]
+    keys = dict.fromkeys(zip(*(points[name] for name in CHART), strict=True))
+    charts = [key for key in keys if shows(str(key[0]), key in exact)]
     columns = 2 if len(charts) in (1, 2, 4) else 3
     figure, axes = panels(max(1, -(-len(charts) // columns)), columns)
     styles = styles_of(points["method"].tolist())
@@ -54,7 +58,8 @@ def _draw(points: Table, *, without_closed_form: bool) -> Figure:
     for axis in (spare := axes[len(charts) :]):
         axis.set_axis_off()
         axis.set_title("", loc="left")
-    name_curves(figure, axes[: len(charts)], columns, spare)
+    if charts:
+        name_curves(figure, axes[: len(charts)], columns, spare)
     return figure
 
 
@@ -65,13 +70,13 @@ def _chart(axis: Axes, points: Table, styles: Mapping[str, Style]) -> None:
     x, compared = points["median [s]"], done & ~points["reference itself"]
     tolerances = [scale * tolerance for tolerance in TOLERANCES[unit]]
     floor, top = _limits(error[compared], half[compared], float(band[0]))
-    top = max(top, 2 * max(tolerances))
+    bottom, top = min(floor, *tolerances) / ROOM, max(top, 2 * max(tolerances))
     seconds = x[np.isfinite(x) & (x > 0)]
-    axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(seconds.min() / ROOM, seconds.max() * ROOM))
+    axis.set(xscale="log", yscale="log", ylim=(bottom, top), xlim=(seconds.min() / ROOM, seconds.max() * ROOM))
     axis.xaxis.set_major_locator(LogLocator(numticks=5))
     axis.yaxis.set_major_formatter("{x:g}")
     axis.minorticks_off()
-    axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.08, linewidth=0, label="uncertainty of the reference")
+    axis.axhspan(bottom, floor, color="#000000", alpha=0.08, linewidth=0, label="uncertainty of the reference")
     for tolerance in tolerances:
         axis.axhline(tolerance, **{**GUIDE, "linewidth": 0.8}, zorder=0.7, label="tolerances")
         end: Any = {"xy": (1.0, tolerance), "xycoords": ("axes fraction", "data"), "textcoords": "offset points"}
