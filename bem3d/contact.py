@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -12,8 +13,11 @@ from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units, typical_slope
 from bem3d.problem import Problem
-from bem3d.results import ReadOnly, span
+from bem3d.results import ReadOnly, map_of, span
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Level = tuple[tuple[int, int], int]
 """Shape of a coarser grid, and the operator applications on it."""
@@ -91,6 +95,40 @@ class Contact(ReadOnly):
     def area(self) -> float:
         """Cells under pressure times dx dy [m^2]."""
         return int(np.count_nonzero(self.pressure)) * self.problem.half_space.cell_area
+
+    def plot(self, ax: Axes | None = None, *, quantity: Literal["pressure", "gap"] = "pressure") -> Axes:
+        """Draw a map of the pressure or of the gap, with a scale.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, by default those of a new figure.
+        quantity : {"pressure", "gap"}, optional
+            Pressure [Pa] of the cells in contact, or the separation of the deformed surfaces [m] of the others, which
+            takes one operator application. Those left out stay empty.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes: first axis of the arrays along x, both from the corner of the grid [m].
+
+        Raises
+        ------
+        ValueError, TypeError
+            If ``quantity`` is another text, or ``ax`` is no Axes.
+        """
+        if quantity not in ("pressure", "gap"):
+            raise ValueError(f'quantity must be "pressure" or "gap", got {quantity!r}')
+        values, unit = (self.pressure, "Pa") if quantity == "pressure" else (self._separation, "m")
+        is_shown = (self.pressure > 0) == (quantity == "pressure")
+        share = np.count_nonzero(self.pressure) / self.pressure.size
+        title = f"contact on {100 * share:.3g} % of the cells, F = {span(self.force, 'N')}"
+        return map_of(np.where(is_shown, values, np.nan), self.problem.half_space.steps, quantity, unit, title, ax)
+
+    @property
+    def _separation(self) -> FloatArray:
+        """gap + u - approach [m]."""
+        return self.problem.gap + self.problem.half_space.displacement(self.pressure) - self.approach
 
     @property
     def residual(self) -> float:
