@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -13,8 +14,11 @@ from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units
 from bem3d.problem import Problem
-from bem3d.results import ReadOnly, kept, span
+from bem3d.results import ReadOnly, kept, map_of, span
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Level = tuple[tuple[int, int], int]
 """Shape of a coarser grid, and the operator applications on it."""
@@ -139,6 +143,35 @@ class Contact(ReadOnly):
         if self.problem.half_space.periodic:
             return float(self.problem.gap.mean()) - self.approach
         return float(self.gap.mean())
+
+    def plot(self, ax: Axes | None = None, *, quantity: Literal["pressure", "gap"] = "pressure") -> Axes:
+        """Draw a map of the pressure or of the gap, with a scale.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, by default those of a new figure.
+        quantity : {"pressure", "gap"}, optional
+            Pressure [Pa] of the cells in contact, or the separation of the deformed surfaces [m] of the others, which
+            takes one operator application. Those left out stay empty.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes: first axis of the arrays along x, both from the corner of the grid [m].
+
+        Raises
+        ------
+        ValueError, TypeError
+            If ``quantity`` is another text, or ``ax`` is no Axes.
+        """
+        if quantity not in ("pressure", "gap"):
+            raise ValueError(f'quantity must be "pressure" or "gap", got {quantity!r}')
+        values, unit = (self.pressure, "Pa") if quantity == "pressure" else (self.gap, "m")
+        is_shown = (self.pressure > 0) == (quantity == "pressure")
+        share = np.count_nonzero(self.pressure) / self.pressure.size
+        title = f"contact on {100 * share:.3g} % of the cells, F = {span(self.force, 'N')}"
+        return map_of(np.where(is_shown, values, np.nan), self.problem.half_space.steps, quantity, unit, title, ax)
 
     @property
     def residual(self) -> float:

@@ -28,6 +28,7 @@ from mdr.checks import (
     number_or_array,
     positive,
 )
+from mdr.results import short
 
 # The wave at q_min = 2 pi / L carries most of the height; rounding must not push it out of the band.
 BAND_TOLERANCE = 1e-9
@@ -232,6 +233,10 @@ class SelfAffine:
             object.__setattr__(self, name, positive(name, getattr(self, name)))
         with doubles(q_min=self.q_min, q_max=self.q_max, rms=self.rms):
             held(self._level, positive=True)
+
+    def __repr__(self) -> str:
+        ends = ", ".join(f"{name}={short(getattr(self, name), 5)}" for name in ("hurst", "q_min", "q_max", "rms"))
+        return f"SelfAffine({ends})"
 
     @overload
     def c2d(self, q: float) -> float: ...

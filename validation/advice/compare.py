@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from pkgutil import resolve_name
-from typing import Any, ParamSpec
+from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
@@ -33,12 +33,17 @@ from validation.advice.models_of_scene import (
 from validation.advice.scene_model import SceneModel, Shared
 from validation.advice.sound_power import ContactForce, SoundPower
 from validation.advice.tolerance import Tolerance, decibels, tolerance_of
-from validation.analysis.escapes import shortened
+from validation.analysis.contents import as_html
+from validation.analysis.escapes import one_line, shortened, shortened_text
+from validation.analysis.number_text import format_seconds, short
 from validation.analysis.spectra import MANTISSAS
 from validation.engine.engine import FloatArray
 from validation.scenes.scene import Scene, SceneQuantity, values_of
 from validation.scenes.units import UNITS, quantity
 from validation.simulation.model import Target
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 
@@ -89,8 +94,8 @@ def beyond_elasticity(scene: Scene) -> str:
     )
 
 
-ROWS = "validation.advice.table:rows_of"
-"""Imported where it is asked for, since a table is of comparisons."""
+ROWS, PLOT = "validation.advice.table:rows_of", "validation.advice.figure:plot"
+"""Imported where they are asked for, since tables and figures are of comparisons."""
 MOST_REALISATIONS = 100_000
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""
@@ -100,7 +105,7 @@ NumberOrLevels = Any
 """A float of one number, an array of levels: a type checker cannot tell which, as of what NumPy's functions return."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
     """Result of `compare`: a quantity of a scene, its error, and what became of each model.
 
@@ -161,6 +166,32 @@ class Comparison:
     timed: bool = False
     swept: Swept | None = None
 
+    def __repr__(self) -> str:
+        scene, model = shortened_text(self.scene.name, 24), shortened_text(self.model, 24)
+        within = f"{'within' if self.met else 'not within'} {self.tolerance}"
+        return one_line(f"Comparison({scene!r}: {self._answer}{f' by {model!r}' * bool(model)}, {within})")
+
+    def _repr_html_(self) -> str:
+        """The answer, and a row a model, for a notebook."""
+        within = f"{'within' if self.met else 'not within'} the tolerance of {self.tolerance}"
+        answer = f"{self.scene.name}: {self._answer}{f' by {self.model}' * bool(self.model)}, {within}"
+        columns: dict[str, Sequence[object]] = {
+            "model": [candidate.name for candidate in self.models],
+            "status": [candidate.status for candidate in self.models],
+            "error": [self.tolerance.shown(candidate.error) for candidate in self.models],
+            "cost": [format_seconds(candidate.cost) for candidate in self.models],
+        }
+        return as_html(answer, columns)
+
+    @property
+    def _answer(self) -> str:
+        """The value with its unit and error, of levels how many there are."""
+        if not self.model:
+            return f"{self.quantity}: no result"
+        if self.is_level:
+            return f"{self.quantity}, {np.size(self.value)} bands ± {short(self.error)} dB"
+        return f"{self.quantity} = {self.value:.4g} {self.unit} ± {short(100 * self.error)} %"
+
     @property
     def scene_quantity(self) -> SceneQuantity:
         """The quantity with its unit, and how it is judged."""
@@ -201,6 +232,27 @@ class Comparison:
         """
         rows: list[dict[str, object]] = resolve_name(ROWS)(self)
         return rows
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the models that were solved, the selected one with its error.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, by default those of a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, with the quantity and its unit.
+
+        Raises
+        ------
+        TypeError
+            If ``ax`` is no Axes.
+        """
+        axes: Axes = resolve_name(PLOT)(self, ax)
+        return axes
 
     def value_of(self, candidate: Candidate) -> NumberOrLevels:
         """The value that a solved model gives, in the unit of ``value``. Raises ValueError for one without a solve."""

@@ -87,6 +87,11 @@ def one_line(text: str) -> str:
     return line if len(line) <= MOST_IN_LINE else f"{line[: MOST_IN_LINE - 4]}...{line[-1]}"
 
 
+def shortened_text(text: str, most: int = 32) -> str:
+    """A name, cut where a line has no room for more."""
+    return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
 def quoted(value: object) -> str:
     """The same, a text in double quotes, as in a scene file."""
     if not isinstance(value, str):

@@ -7,18 +7,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from validation.advice.tolerance import Tolerance, tolerance_of
-from validation.analysis.contents import as_csv, as_json, condition_key, finite_or_none
-from validation.analysis.escapes import printable
-from validation.analysis.evidence import Verdict, table_of
+from validation.analysis.contents import as_csv, as_html, as_json, condition_key, finite_or_none
+from validation.analysis.escapes import one_line, printable, shortened_text
+from validation.analysis.evidence import Verdict, table_of, where_text
+from validation.analysis.number_text import interval_text
 from validation.judging.judgement import (
     WITHOUT_NUMBER,
     Conditions,
     JudgedNumber,
     JudgedRange,
     SolverTime,
+    counts_of,
     missing_number,
     ranges_of,
     trusted_numbers,
@@ -30,6 +32,9 @@ from validation.judging.kinds.own import ErrorOfCall, costs_of
 from validation.judging.replies import raised
 from validation.judging.worker import Called, visited
 from validation.report.folder import JUDGEMENT, Folder
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 OF_SOLVER = "validation.judging.solvers.checks:judged"
 """Of a contact solver; it imports all solvers."""
@@ -79,6 +84,25 @@ class Judgement:
     seconds: float
     times: tuple[SolverTime, ...] = ()
     costs: tuple[ErrorOfCall, ...] = ()
+
+    def __repr__(self) -> str:
+        return one_line(f"Judgement({shortened_text(self.model)!r}, {self.tolerance}: {self._counts})")
+
+    def _repr_html_(self) -> str:
+        """The counts of verdicts, and a row a range, for a notebook."""
+        parts = self.ranges
+        columns: dict[str, Sequence[object]] = {
+            "quantity": [part.quantity for part in parts],
+            "conditions": [where_text(part.where) for part in parts],
+            "range": [f"{part.along} = {interval_text(part.start, part.stop)}" if part.along else "" for part in parts],
+            "verdict": [part.verdict for part in parts],
+        }
+        return as_html(f"{self.model}, tolerance {self.tolerance}: {self._counts}", columns)
+
+    @property
+    def _counts(self) -> str:
+        """How many numbers have each verdict."""
+        return ", ".join(f"{count} {verdict}" for verdict, count in counts_of(self.numbers).items()) or "no numbers"
 
     @property
     def ranges(self) -> list[JudgedRange]:
@@ -141,6 +165,28 @@ class Judgement:
             | {"error_grid": number.grid}
             for number in self.numbers
         ]
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the deviations of the first quantity with their intervals and the tolerance; of a solver its seconds.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, by default those of a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes. `save` draws all quantities.
+
+        Raises
+        ------
+        TypeError
+            If ``ax`` is no Axes.
+        """
+        from validation.judging.figure import plot  # which takes half a second to import
+
+        return plot(self, ax)
 
     def summary(self) -> str:
         """Ranges of equal verdict, the largest deviations and their common condition, and a paragraph for a paper."""

@@ -466,7 +466,7 @@ class OwnModel:
         return f"it answers fewer than {FEWEST_SCENES} scenes of the calibration: its error is unknown"
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class ModelOfUser(Model):
     """Of a function that no module of the package declares. own: what makes it, also where it is unpickled."""
 

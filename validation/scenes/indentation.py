@@ -21,7 +21,7 @@ MOST_PRESSURE, SOFTEST = 0.1, 1e3
 """Of E*, that a half-space bears without large strains; E* [Pa] below which its unit is asked for. 1 is no pressure."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class IndentationScene(OnHalfSpace, SceneDefaults):
     """Rigid sphere or square punch, smooth or rough, pressed onto an elastic half-space.
 

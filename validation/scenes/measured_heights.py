@@ -298,6 +298,11 @@ class MeasuredHeights:
         """Ends of the rings of wavenumbers in which the spectrum is known [rad/m]."""
         return self._rings[0]
 
+    def __repr__(self) -> str:
+        points = " x ".join(map(str, self.height.shape))
+        sides = " x ".join(in_unit(side, "length") for side in self.sides)
+        return f"MeasuredHeights({points} points on {sides}, rms={in_unit(self.rms, 'length')})"
+
     @property
     def q_min(self) -> float:
         """Lower end of the first ring [rad/m]."""

@@ -39,6 +39,10 @@ class Roughness:
     longest: float
     shortest: float
 
+    def __repr__(self) -> str:
+        rms, longest, shortest = (f"{value:.5g}" for value in (self.rms, self.longest, self.shortest))
+        return f"Roughness(rms={rms}, hurst={self.hurst:.4g}, longest={longest}, shortest={shortest})"
+
     @property
     def q_min(self) -> float:
         """2 pi over the longest wave [rad/m]."""

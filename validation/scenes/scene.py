@@ -8,9 +8,12 @@ from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 
+from validation.analysis.contents import as_html
+from validation.analysis.escapes import one_line, shortened_text
 from validation.analysis.statistics import FloatArray
 from validation.scenes.material import Material
 from validation.scenes.roughness import RoughSurface
+from validation.scenes.units import in_unit
 
 
 @dataclass(frozen=True)
@@ -240,6 +243,24 @@ class SceneDefaults:
 
     ground: RoughSurface | None
     shares_solves: ClassVar[bool] = False
+
+    def __repr__(self) -> str:
+        scene: Any = self
+        size = getattr(scene, "size", None) or scene.radius
+        parts = [
+            repr(shortened_text(scene.name)),
+            f"{scene.size_key.partition('.')[2]}={in_unit(size, 'length')}",
+            f"load={in_unit(scene.load, 'force')}",
+            *([f"speed={in_unit(scene.speed, 'speed')}"] if scene.speed is not None else []),
+            *([f"rms={in_unit(scene.ground.rms, 'length')}"] if scene.ground is not None else []),
+        ]
+        return one_line(f"{type(self).__name__}({', '.join(parts)})")
+
+    def _repr_html_(self) -> str:
+        """What `describe` says, as a table."""
+        scene: Any = self
+        names, texts = zip(*scene.describe(), strict=True)
+        return as_html(scene.name, {"": names, " ": texts})
 
     @property
     def error_source(self) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 
 from validation.analysis.evidence import Verdict
 from validation.analysis.statistics import Estimate, FloatArray
+from validation.engine.engine import identity
 from validation.judging.judgement import AGAIN, LEVEL, RATIO, Conditions, JudgedNumber, judged_number, missing_number
 from validation.judging.kinds.references import Reference
 from validation.judging.registry import Caller, Failed, Offered
@@ -91,7 +92,8 @@ def digest_of(arguments: Mapping[str, Any]) -> bytes:
     for name, value in sorted(arguments.items()):
         state = value.bit_generator.state if isinstance(value, np.random.Generator) else value
         digest.update(name.encode())
-        digest.update(np.ascontiguousarray(state).tobytes() if isinstance(state, np.ndarray) else repr(state).encode())
+        is_array = isinstance(state, np.ndarray)
+        digest.update(np.ascontiguousarray(state).tobytes() if is_array else identity(state).encode())
     return digest.digest()
 
 

@@ -179,7 +179,7 @@ class ContactFilter:
         return Result({**all_of_them, **values}, failed=failed)
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class RailModel(Model):
     """filter: what it makes of a rail."""
 

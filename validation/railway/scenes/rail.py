@@ -71,7 +71,7 @@ LONGEST_OF_CONTACT, SHORTEST_OF_CONTACT = 10.0, 0.45
 
 
 @renamed_field("across", "lateral_structure")
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class RailScene(SceneDefaults):
     """A wheel that rolls along a rail with rough surfaces.
 
