@@ -20,7 +20,7 @@ from validation.benchmarks.work_precision.problem import (
     RoughPunchProblem,
 )
 from validation.cases.limits.limits import SUMMARY
-from validation.cases.wheel.features import LEVEL
+from validation.cases.wheel.ensembles import LEVEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.cases.wheel.half_space_study import WHEEL
 from validation.railway.cases.across_study import LOUDER

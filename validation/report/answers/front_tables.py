@@ -23,7 +23,7 @@ from validation.cases.punch.ensembles import FORCE
 from validation.cases.punch.interface import CONTACT
 from validation.cases.rolling.force_spectrum import SLOPE
 from validation.cases.wheel import half_space
-from validation.cases.wheel.features import LEVEL
+from validation.cases.wheel.ensembles import LEVEL
 from validation.report.answers.question import BEM, TIMES
 from validation.report.section import Section
 from validation.scenes.description import slope_ratio
