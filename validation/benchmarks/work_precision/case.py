@@ -313,7 +313,7 @@ STUDY = Study(
     ),
     charts=(
         Chart("precision", claims=(0,)).of(f"Error against seconds, punch of Fig. 14.1 and rolling wheel. {MARKS}"),
-        Chart("precision-rolled-off").of(f"Error against seconds, punches with a roll-off. {MARKS}"),
+        Chart("precision-interface").of(f"Error against seconds, punches with a roll-off. {MARKS}"),
         Chart("precision-others").of(f"Error against seconds, a chart a quantity with a closed form. {MARKS}"),
     ),
 )

@@ -410,8 +410,7 @@ class RolledOffPunchProblem(RoughPunchProblem):
 
     @property
     def served(self) -> tuple[str, ...]:
-        """No model knows a roll-off."""
-        return ()
+        return ()  # no model has a roll-off
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
         """The mean gap is the mean displacement less the approach: heights have no mean."""

@@ -17,7 +17,7 @@ from validation.report.figures import precision, race
 
 OWN: Mapping[str, Callable[..., Figure]] = {
     "precision": precision.draw,
-    "precision-rolled-off": precision.draw_rolled_off,
+    "precision-interface": precision.draw_interface,
     "precision-others": precision.draw_others,
     "race": race.draw,
 }

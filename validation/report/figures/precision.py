@@ -29,7 +29,7 @@ def draw(points: Table) -> Figure:
     return _draw(points, lambda scene, exact: not exact and scene != RolledOffPunchProblem.name)
 
 
-def draw_rolled_off(points: Table) -> Figure:
+def draw_interface(points: Table) -> Figure:
     """The same of the punch with a roll-off."""
     return _draw(points, lambda scene, exact: scene == RolledOffPunchProblem.name)
 
