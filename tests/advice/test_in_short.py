@@ -64,9 +64,9 @@ def test_the_error_of_levels_is_in_decibels_too_and_bands_stand_above():
 
 
 def test_quantities_of_a_rail_have_one_answer_with_the_force():
-    both = [planted("rail", quantity) for quantity in quantities_of(validation.load_scene("rail"))]
+    both = [planted("rail", quantity) for quantity in quantities_of(validation.load_scene("rail"))[:2]]
     value, *_ = answer_of(*both)
-    assert value.startswith("both in ") and "dB(A) re 1 N" in value
+    assert value.startswith("both in ") and "dB(A) re 1 pW" in value
     assert findings(both, in_short).count("  status\n") == 1
 
 
@@ -122,5 +122,5 @@ stiffness = 9.3649e8 N/m (by closed form, 1 ms): within tolerance
 error ± 0 % (95 %); tolerance 10 %
 MDR has no springs for this scene
 
-model         predicted  estimated     cost  status
+model        predicted  estimated     cost  status
 """

@@ -18,7 +18,6 @@ from tests.seeded import Times, catches, catches_root_of_two
 from validation.advice.compare import models_of
 from validation.advice.models.rolling import RollingClaim, linear_filter_3d
 from validation.advice.summary import facts
-from validation.advice.tolerance import tolerance_of
 from validation.analysis.case import Outcomes
 from validation.cases.limits.sweeps import LIMITS, Sweep
 from validation.cases.punch.interface import Interface

@@ -56,7 +56,7 @@ class Line(StrEnum):
     strip: a sign a number; outcome: ranges of each verdict; warning: of the model, or that it has given none.
     """
 
-    RESULT = "{0.model}: {kind}, tolerance {0.tolerance}, {count} points in {0.seconds:.1f} s: {counts}"
+    RESULT = "{0.model}: {counts} ({count} points, tolerance {0.tolerance}); {kind}, {0.seconds:.1f} s"
     QUANTITY = "\n{quantity}{along}{note}"
     STRIP = "  {conditions:32s} {strip}  {outcome}"
     LARGEST = "  {0.quantity}, {conditions}: {0.shown}"
