@@ -474,7 +474,10 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     levels = np.arange(1.0, centres.size + 1)
     found = compared(Finding(value=tuple(levels), parts=PARTS), scene=scene, quantity=quantity)
     # 20 lg 1.1202 = 0.99 dB
-    assert "± 12 % (0.99 dB) over all bands: model 10 %, grid 2 %, sample 0.3 %" in " ".join(summary(found).split())
+    assert (
+        "± 12 % (0.99 dB) over all bands (95 %), of which model 10 %, discretisation 2 %, sampling 0.3 %; "
+        in " ".join(summary(found).split())
+    )
     columns = bands_of(found, found.model)
     assert list(columns)[-2:] == [f"level [dB re 1 {unit}]", "± [dB]"]
     wave, frequency, nominal, turns, rms, decibels, half = (np.array(cells, dtype=float) for cells in columns.values())

@@ -33,22 +33,22 @@ def is_solved(comparison: Comparison, springs: Candidate) -> bool:
 
 
 def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
-    """Whether the springs are enough, in words that say where that is predicted alone, and why."""
+    """Whether the springs are accurate enough, in words that say where that is predicted alone, and why."""
     shown, limit = comparison.tolerance.shown_distinct(springs.error), comparison.tolerance.relative
     of = f" ({comparison.statistic})" if comparison.statistic else ""
     if comparison.beyond_elasticity:
-        return "not enough", comparison.beyond_elasticity
+        return "not accurate enough", comparison.beyond_elasticity
     if not math.isfinite(springs.error):
-        return "not known to be enough", springs.reason
+        return "not known to be accurate enough", springs.reason
     if not is_solved(comparison, springs):
-        enough = "predicted to be enough" if springs.error <= limit else "not sure to be enough"
+        enough = "predicted to be accurate enough" if springs.error <= limit else "not predicted to be accurate enough"
         bound = "" if comparison.scene.error_source else f", an upper bound in {100 * SHARE:.0f} % of scenes"
         return enough, f"its predicted error{of} is {shown}{bound}; {SOLVES_IT}"
     if against := contradicting(comparison.selection, springs):
-        return "not enough", f"{against.name}, with less bias, contradicts it"
+        return "not accurate enough", f"{against.name}, with less bias, contradicts it"
     if springs.error > limit:
-        return "not enough", f"its error{of} is {shown}"
-    return "enough", "the result is its own" if springs is comparison.selection.best else f"its error{of} is {shown}"
+        return "not accurate enough", f"its error{of} is {shown}"
+    return "accurate enough", "it is selected" if springs is comparison.selection.best else f"its error{of} is {shown}"
 
 
 def in_short(comparison: Comparison) -> str:
