@@ -42,12 +42,12 @@ from validation.advice.calibration_scenes import (
     answers_in,
 )
 from validation.advice.calibration_solves import MeasuredAlone, measure_alone, measure_errors, reference_answer
+from validation.analysis.escapes import printable
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.files import write_output, write_whole
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, not_beside
 from validation.report.folder import CALIBRATION, MANIFEST, REALISATIONS, Folder
-from validation.scenes.printable import printable
 from validation.simulation.model import GridModel, models_serving
 
 OUT = Path("calibration")

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from validation.analysis.case import Study, _title
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
-from validation.analysis.study import Study, _title
 from validation.report import earlier_report
 from validation.report.build import _files
 from validation.report.contents import CASES, TIMED

@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claim_text import listed
-from validation.analysis.number_text import half_open_text
+from validation.analysis.evidence import Verdict
+from validation.analysis.number_text import enumeration, half_open_text
 from validation.analysis.ranges import verdict_ranges
-from validation.analysis.verdict import Verdict
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)
@@ -35,7 +34,7 @@ def cells(row: Mapping[str, Any]) -> list[str]:
         neighbours = part.items(measured)
         where = _range(neighbours, row["deciding_number"], closed=neighbours[-1] is measured[-1])
         places.setdefault(part.verdict, []).append(f"{where} ({part.split})" if part.split else where)
-    where = "; ".join(f"{verdict}: {listed(places[verdict])}" for verdict in VERDICTS if verdict in places)
+    where = "; ".join(f"{verdict}: {enumeration(places[verdict])}" for verdict in VERDICTS if verdict in places)
     instead = "; ".join(model["model"] for model in row["instead"])
     # one verdict throughout is said once
     answer = f"**{row['answer']}.** {where}"

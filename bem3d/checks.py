@@ -152,3 +152,14 @@ def density(name: str, values: ArrayLike, shape: tuple[int, ...]) -> FloatArray:
     if not (np.isfinite(array) & (array >= 0)).all():
         raise ValueError(f"{name} must be finite and nowhere negative, got {array.min()} to {array.max()}")
     return array
+
+
+def fits(name: str, value: object, needed: int) -> None:
+    """MemoryError naming the argument that asks for so many bytes, where the machine does not give them."""
+    try:
+        # asked for and not touched, which takes no time
+        np.empty(needed, dtype=np.uint8)
+    except (MemoryError, ValueError):
+        raise MemoryError(
+            f"{name} must be smaller: {value} needs about {needed / 1e9:.3g} GB of memory, more than there is"
+        ) from None

@@ -16,6 +16,7 @@ from bem3d import kernel
 from bem3d.blocked_convolution import BlockedConvolution, SpectrumMemory
 from bem3d.checks import FloatArray, OneOrTwo, boolean, count, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import CachedConvolution, Convolution, PlainConvolution, Planning
+from bem3d.results import pair, span
 from bem3d.threads import cores
 
 KEEPING = threading.Lock()
@@ -91,6 +92,14 @@ class HalfSpace:
             raise ValueError(f'planning must be "estimate" or "measure", got {self.planning!r}')
         if self.threads != "all":
             object.__setattr__(self, "threads", count('threads, unless "all",', self.threads))
+
+    def __repr__(self) -> str:
+        cells, planning = (
+            " x ".join(map(str, self.shape)),
+            f", planning={self.planning!r}" * (self.planning != "estimate"),
+        )
+        more = ", periodic" * self.periodic + planning + f", threads={self.threads}" * (self.threads != 1)
+        return f"HalfSpace({cells} cells of {pair('m', *self.steps)}, modulus={span(self.modulus, 'Pa')}{more})"
 
     def displacement(self, pressure: ArrayLike) -> FloatArray:
         """Displacement under a pressure: one application of the operator.

@@ -14,9 +14,18 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from bem3d.checks import FloatArray, OneOrTwo, Spectrum, callable_spectrum, density, grid_shape, grid_spacing, positive
+from bem3d.checks import (
+    FloatArray,
+    OneOrTwo,
+    Spectrum,
+    callable_spectrum,
+    density,
+    fits,
+    grid_shape,
+    grid_spacing,
+    positive,
+)
 from bem3d.diagnostics import diagnose_waves, warn
-from bem3d.memory import fits
 
 ComplexArray = NDArray[np.complex128]
 BYTES_A_CELL = 48

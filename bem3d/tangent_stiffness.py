@@ -9,9 +9,8 @@ import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray, count, field, fraction
 from bem3d.convergence import ConvergenceError
-from bem3d.formatting import span
 from bem3d.halfspace import HalfSpace
-from bem3d.read_only import ReadOnly
+from bem3d.results import ReadOnly, span
 from bem3d.window import Candidates, dot, smallest_box
 
 

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 from mdr.diagnostics import LinearityWarning, SpringContactWarning, SpringResolutionWarning, SpringUnitsWarning
 from mdr.foundation import LoadCurve, LoadPoint, load_curve, stiffness_under
 from mdr.profile import rough_profile, rough_profiles
-from mdr.rolling import roll, rolling_force
+from mdr.rolling import RollingTrack, roll, rolling_force
 from mdr.rolling_ensemble import RollingEnsemble
 from mdr.rolling_spectrum import rolling_spectrum
 from mdr.rolling_surface import roll_surface
-from mdr.rolling_track import RollingTrack
 from mdr.spectrum import SelfAffine, geike, inverse_geike, line_trace
 from mdr.sphere import SphereContact, press_sphere, sphere_profile
 

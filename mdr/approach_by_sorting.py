@@ -4,9 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mdr.candidate_springs import Near
 from mdr.checks import FloatArray
-from mdr.spring_track import SpringTrack
+from mdr.spring_track import Near, SpringTrack
 
 MOST_NUMBERS = 2**21
 """Springs times positions that are sorted at once."""

@@ -1,13 +1,16 @@
 """What is checked where values enter: one clear sentence, or a value that can be trusted."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+Numbers = NDArray[Any] | Sequence[Any]
+"""Several numbers, in any shape; one number is a float."""
 Spectrum = Callable[[FloatArray], FloatArray]
 OneOrTwo = float | tuple[float, float]
 """One number for both axes, or two."""
@@ -72,6 +75,11 @@ def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None, copy:
     return array
 
 
+def number_or_array(values: FloatArray) -> float | FloatArray:
+    """A float where there is no axis, as for one wavenumber, else the array."""
+    return values if np.ndim(values) else float(values)
+
+
 @contextmanager
 def doubles(**given: object) -> Iterator[None]:
     """Arithmetic whose results must be numbers, see `held`; ValueError with what was given where they are not."""
@@ -125,3 +133,14 @@ def density(name: str, values: ArrayLike) -> FloatArray:
     if (array < 0).any():
         raise ValueError(f"{name} must be nowhere negative, got {array.min()}")
     return array
+
+
+def fits(name: str, value: object, needed: int) -> None:
+    """MemoryError naming the argument that asks for so many bytes, where the machine does not give them."""
+    try:
+        # asked for and not touched, which takes no time
+        np.empty(needed, dtype=np.uint8)
+    except (MemoryError, ValueError):
+        raise MemoryError(
+            f"{name} must be smaller: {value} needs about {needed / 1e9:.3g} GB of memory, more than there is"
+        ) from None

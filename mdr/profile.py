@@ -11,10 +11,9 @@ from typing import Literal
 
 import numpy as np
 
-from mdr.checks import FloatArray, Spectrum, callable_spectrum, density, doubles, held, positive
+from mdr.checks import FloatArray, Spectrum, callable_spectrum, density, doubles, fits, held, positive
 from mdr.checks import count as whole
 from mdr.diagnostics import SpringContactWarning, diagnose_waves, warn
-from mdr.memory import fits
 
 BYTES_A_POINT = 40
 """At the height of a draw, measured: five times what it returns."""

@@ -8,18 +8,51 @@ sums, and springs that cannot touch are left out.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.approach_by_sorting import Borne, by_sorting
-from mdr.candidate_springs import Near
 from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive
 from mdr.diagnostics import SpringContactWarning, diagnose_linearity, diagnose_slope, warn
 from mdr.elliptic_wheel import spring_wheel
-from mdr.rolling_track import RollingTrack
-from mdr.spring_track import SpringTrack
+from mdr.results import ReadOnlyArrays, line, span
+from mdr.spring_track import Near, SpringTrack
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RollingTrack(ReadOnlyArrays):
+    """Wheel at each point of its track. Made by `roll`; ``mdr.Rolling`` in 0.1.
+
+    Attributes
+    ----------
+    force : ndarray, shape (points,)
+        Normal force [N].
+    approach : ndarray, shape (points,)
+        Approach of the smooth wheel to the plane of height zero [m].
+    stiffness : ndarray, shape (points,)
+        dF/dd of the springs in contact [N/m].
+    examined : ndarray, shape (points,)
+        Springs that were looked at one by one: those that may touch or not. A measure of the work.
+
+    Examples
+    --------
+    >>> rolled = mdr.roll(np.zeros(64), spacing=1e-4, radius=0.5, modulus=2e11, force=1e3)
+    >>> print(f"{rolled.approach[0]:.3g} m")
+    3.04e-06 m
+    """
+
+    force: FloatArray
+    approach: FloatArray
+    stiffness: FloatArray
+    examined: FloatArray
+
+    def __repr__(self) -> str:
+        load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}"
+        return line(f"RollingTrack({self.force.size} points, {load}, stiffness={span(self.stiffness, 'N/m')})")
+
 
 BLOCK = 1024
 """Positions at a time: few enough to stay in the cache, and to see little of the range of the heights."""

@@ -11,8 +11,7 @@ from mdr.approach_by_sorting import borne_by
 from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive, stiffness_of_springs
 from mdr.diagnostics import SpringContactWarning, diagnose_slope, diagnose_units, diagnose_wheel, warn
 from mdr.elliptic_wheel import SpringWheel, spring_wheel
-from mdr.rolling import smooth_approach
-from mdr.rolling_track import RollingTrack
+from mdr.rolling import RollingTrack, smooth_approach
 
 MOST_NUMBERS = 2**16
 """Springs times positions at once: few enough to stay in the cache."""

@@ -25,6 +25,8 @@ HELPERS = {
     "validation.theory.half_space.gauss_legendre",
     "validation.theory.half_space.on_panels",
     "validation.railway.theory.transverse_structure.gauss",
+    "validation.railway.theory.line_coherence.in_words",
+    *(f"validation.railway.theory.sound_power.{name}" for name in ("frequencies", "tracks", "wheels", "nearest_wheel")),
 }
 METHODS = {
     *("mdr.geike", "mdr.line_trace", "mdr.load_curve", "mdr.rough_profile", "mdr.roll", "mdr.roll_surface"),

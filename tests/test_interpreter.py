@@ -10,7 +10,7 @@ import pytest
 
 import bem3d
 import mdr
-from bem3d import formatting
+from bem3d import results
 
 ROUGH = mdr.SelfAffine(hurst=0.8, q_min=1.0, q_max=10.0, rms=1e-2)
 RNG = np.random.default_rng(0)
@@ -138,6 +138,6 @@ print(pyfftw.interfaces.numpy_fft.fft([1.0, 0.0]).real.tolist(), "scipy.fftpack"
 
 
 def test_numbers_of_a_line():
-    assert formatting.span(np.empty(0), "m") == "none"
-    assert formatting.span(np.array([1.0, 1.0001]), "m") == "1 m"
-    assert [formatting.short(value, 3) for value in (1.5e-6, 2e11, 0.1, -1e-12)] == ["1.5e-6", "2e11", "0.1", "-1e-12"]
+    assert results.span(np.empty(0), "m") == "none"
+    assert results.span(np.array([1.0, 1.0001]), "m") == "1 m"
+    assert [results.short(value, 3) for value in (1.5e-6, 2e11, 0.1, -1e-12)] == ["1.5e-6", "2e11", "0.1", "-1e-12"]

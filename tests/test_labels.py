@@ -7,7 +7,7 @@ import pytest
 from tests.copies import ROOT, copied
 
 ANEW = {
-    "validation/simulation/quantities.py": (
+    "validation/analysis/quantity.py": (
         'Quantity("mean_stiffness")',
         'Quantity("mean_stiffness", "average stiffness")',
     ),

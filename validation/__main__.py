@@ -10,6 +10,7 @@ from contextlib import suppress
 from importlib import import_module, metadata
 from typing import Any, NoReturn
 
+from validation.analysis.escapes import never_fatal, printable
 from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.street import commands
 from validation.engine.workers import (
@@ -23,7 +24,6 @@ from validation.engine.workers import (
 from validation.report.commands.arguments import Exit
 from validation.report.durations import duration_text
 from validation.scenes.bundled import SceneError
-from validation.scenes.printable import never_fatal, printable
 
 COMMANDS = {
     "report": "run the cases and write a report folder",

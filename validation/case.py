@@ -4,12 +4,11 @@ A module that defines a solve, or the class of a problem, does not import them f
 of the keys of its stored results.
 """
 
-from validation.analysis.case import Case, Chapter
+from validation.analysis.case import Case, Chapter, Outcomes, Study
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series
-from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine
 
 __all__ = [

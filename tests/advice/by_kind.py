@@ -1,7 +1,7 @@
 """Models of a scene by their kind, so that a model added to `advice/models` changes no test."""
 
 from validation.advice.models import boundary_elements_pressed
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.advice.scene_model import SceneModel
 from validation.scenes.load import Scene
 from validation.simulation.method import Resolution

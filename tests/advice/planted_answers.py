@@ -10,13 +10,12 @@ import numpy as np
 import validation
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection, select_model
-from validation.advice.quantities import models_of, quantity_of
+from validation.advice.models_of_scene import models_of, quantity_of
 from validation.advice.scene_model import Answer
 from validation.advice.tolerance import tolerance_of
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.rolling import RollingScene
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity, RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.model import Cost, ErrorEstimate
 
@@ -50,8 +49,8 @@ def _values(scene, quantity):
     if not quantity_of(scene, quantity).in_bands:
         return np.array([5.4e7])
     rail = isinstance(scene, RailScene)
-    count = len(scene.levels.bands) if rail else RollingQuantity(scene, quantity).bands.centres.size
-    return np.logspace(-3, 3, count)
+    bands = scene.bands(quantity) if rail else RollingQuantity(scene, quantity).bands.centres
+    return np.logspace(-3, 3, bands.size)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from tests.advice.planted_answers import Finding
 from validation.advice.advice import would_help
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
-from validation.advice.quantities import models_of, quantities_of
+from validation.advice.models_of_scene import models_of, quantities_of
 from validation.railway.problems.rail_models import what_would_state_the_ground
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.bundled import path_of

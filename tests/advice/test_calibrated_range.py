@@ -23,7 +23,7 @@ from validation.advice.calibration import (
 )
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.scenes.roughness import Roughness
 
 ROUGH = Roughness(rms=1e-7, hurst=0.7, longest=2e-3, shortest=1e-4)

@@ -27,7 +27,7 @@ from validation.advice.calibration import (
 )
 from validation.advice.calibration_scenes import QUANTITIES, RESONANCES, CalibrationRun, CalibrationScene
 from validation.advice.scene_model import Answer, Realisations
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation.model import Cost, GridModel, Target, all_models, models_serving
 
 PUNCH = {LOAD: 1.0, WAVES: 1.0, RATIO: 8.0, HURST: 0.7}

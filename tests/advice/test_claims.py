@@ -17,10 +17,10 @@ from validation.advice.compare import compare
 from validation.advice.hierarchy import select_model
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling, pressed
 from validation.advice.models import rolling as rolling_models
-from validation.advice.quantities import models_of, quantities_of
-from validation.engine.random_numbers import random_generator
+from validation.advice.models_of_scene import models_of, quantities_of
+from validation.engine.realisations import random_generator
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.scenes.roughness import Roughness
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import method, surface

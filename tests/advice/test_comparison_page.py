@@ -11,9 +11,9 @@ from tests.advice.planted_answers import Fake, Finding, punch
 from validation.__main__ import main
 from validation.advice.advice import in_full
 from validation.advice.compare import Comparison, SceneProblem
-from validation.advice.contact_force import LEVELS
 from validation.advice.hierarchy import select_model
 from validation.advice.page import PAGE, files_of_comparison
+from validation.advice.sound_power import LEVELS
 from validation.advice.summary import label
 
 ABOUT = dict.fromkeys(("version", "commit", "python", "system"), "0") | {"libraries": {}, "seeds": {"compare": 0}}
@@ -34,7 +34,9 @@ def of_models(*models, **settings):
 @pytest.mark.slow
 def test_the_page_has_scene_answer_claims_and_costs():
     scene = validation.load_scene("rolling_wheel")
-    found = validation.compare(scene, "force-spectrum", "3 dB", models=["linear filter, 3D", "springs"])
+    found = validation.compare(
+        scene, quantity="force-spectrum", tolerance="3 dB", models=["linear filter, 3D", "springs"]
+    )
     files = files_of(found)
     text = text_of(files[PAGE])
     for said in ("Rolling wheel: force-spectrum within 3 dB", "contact radius a 1.982 mm", "✓ tolerance met"):
@@ -48,18 +50,19 @@ def test_the_page_has_scene_answer_claims_and_costs():
 
 
 @pytest.mark.slow
-def test_the_page_of_a_rail_has_its_levels_its_force_and_the_seconds_of_its_models():
+def test_the_page_of_a_rail_has_its_levels_its_sound_power_and_the_seconds_of_its_models():
     """A section a quantity; what has the same name in text and page has the same words."""
     names = ("linear, ellipse", "Remington")
     scene, quantities = validation.load_scene("rail"), ("contact-filter", "equivalent-roughness")
     found = SceneProblem(scene, quantities, "1 dB", solve_all=True, models=names).compared()
     files = files_of(*found.values())
-    text, force = text_of(files[PAGE]), found["contact-filter"].force
+    text, power = text_of(files[PAGE]), found["contact-filter"].power
     assert files[PAGE].count(b"<section id=") == 2 and "figures/all.svg" not in files
     assert "Wheel on a rail: contact-filter, equivalent-roughness within 1 dB" in text
-    assert text.count(force.sentences[0]) == 2 and text.count(LEVELS) == 2
-    for words in ("Took", "sum [dB(A) re 1 N]", f"{force.total('Remington'):.1f}", "band [Hz] L_r A3 L_eq ± [dB] L_FA"):
+    assert text.count(power.sentences[0]) == 2 and text.count(LEVELS) == 2
+    for words in ("Took", "sum [dB(A) re 1 pW]", f"{power.total('Remington'):.1f}", "band [Hz] L_r A3 L_eq ± [dB]"):
         assert words in text
+    assert "L_FA" not in text and "re 1 N" not in text
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ import mdr
 from tests.seeded import catches
 from validation.advice.models import boundary_elements_pressed as pressed
 from validation.advice.models import pressed as on_profiles
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.railway.problems import rail_models, rail_strip
 from validation.scenes.load import load_scene
 from validation.simulation.model import Target, models_serving

@@ -24,16 +24,16 @@ from validation.advice.cases.edge_scenes import (
 from validation.advice.cases.model_selection import PARTS, EdgeTrial, edge_trials, solve_edge, true_error
 from validation.advice.cases.model_selection_study import OF_EDGES, at_edges, edges_of
 from validation.advice.compare import compare
-from validation.advice.quantities import models_of, quantities_of
+from validation.advice.models_of_scene import models_of, quantities_of
 from validation.advice.scene_model import Answer
 from validation.analysis.evidence import grouped
 from validation.analysis.series import numbers_of
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 from validation.railway.cases.edge_scenes import RAIL
 from validation.railway.problems.rail_models import rail_quantity
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation import rolling_levels
 from validation.simulation.method import distance
 from validation.simulation.model import Cost, GridModel
@@ -164,7 +164,7 @@ def test_a_wheel_whose_resonance_leaves_no_band_is_refused_in_a_sentence():
     slow = replace(slow, ground=replace(slow.ground, rms=1e-3 * slow.approach))
     turn = slow.body.eigenfrequency / slow.speed
     ground = replace(slow.ground, longest=2 * math.pi / (1.2 * turn), shortest=2 * math.pi / (2.2 * turn))
-    found = compare(replace(slow, ground=ground), "acceleration")
+    found = compare(replace(slow, ground=ground), quantity="acceleration")
     assert not found.met and np.isnan(found.value).all() and found.wavenumbers.size == 0
     assert all(model.status == "out of range" and "one-third octave" in model.reason for model in found.models)
 

@@ -18,7 +18,7 @@ from validation.__main__ import main
 from validation.advice.compare import Swept
 from validation.advice.exported import to_json_of
 from validation.advice.hierarchy import Status
-from validation.advice.quantities import all_quantities, quantities_of
+from validation.advice.models_of_scene import all_quantities, quantities_of
 from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare
 
@@ -36,7 +36,9 @@ def rows_of(comparison):
 
 
 def spectrum(**settings):
-    return validation.compare(validation.load_scene("rolling_wheel"), "force-spectrum", "3 dB", **settings)
+    return validation.compare(
+        validation.load_scene("rolling_wheel"), quantity="force-spectrum", tolerance="3 dB", **settings
+    )
 
 
 def test_the_contact_that_is_assumed_is_that_of_hertz():

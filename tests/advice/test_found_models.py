@@ -11,15 +11,13 @@ from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.advice import models
 from validation.advice.compare import compare
 from validation.advice.models import boundary_elements_pressed, rolling
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.summary import summary
 from validation.benchmarks import timing
 from validation.benchmarks.peers import all_methods
-from validation.benchmarks.work_precision.errors import points
-from validation.benchmarks.work_precision.pressed import RoughPunchProblem
-from validation.benchmarks.work_precision.problem import Grids, measure
-from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.benchmarks.work_precision.pareto import points
+from validation.benchmarks.work_precision.problem import Grids, RollingProblem, RoughPunchProblem, measure
 from validation.scenes.scene import STIFFNESS, SceneQuantity
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target

@@ -14,7 +14,7 @@ from tests.advice.planted_answers import Finding, compared
 from tests.judging.test_own_models import OPEN, PUNCH, SCENES, answers, stored
 from tests.seeded import catches
 from validation.advice import compare
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.advice.scene_model import Answer, SceneModel
 from validation.judging import own_models
 from validation.railway.models.rail import LINEAR_ELLIPSE
@@ -33,7 +33,7 @@ def test_the_ends_of_an_interval_are_the_value_less_and_more_its_error():
 
 
 def test_another_seed_draws_other_surfaces_and_the_same_one_the_same():
-    found = [validation.compare(ROUGH, models="springs", seed=seed).value[0] for seed in (0, 1, 0)]
+    found = [validation.compare(ROUGH, models="springs", seed=seed).value for seed in (0, 1, 0)]
     assert found[0] == found[2] != found[1]
 
 

@@ -22,16 +22,17 @@ from validation.advice.cases.random_scenes import KINDS, random_scene
 from validation.advice.compare import compare
 from validation.advice.hierarchy import needed, select_model
 from validation.advice.models import boundary_elements_pressed
-from validation.advice.quantities import all_quantities, models_of, quantities_of
+from validation.advice.models_of_scene import all_quantities, models_of, quantities_of
 from validation.advice.summary import bands_of, summary
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.method import distance, mean_error
+from validation.simulation.rough_punch import STIFFNESS_ERROR
 from validation.theory import rolling
 
 
@@ -120,7 +121,7 @@ def test_a_grid_that_was_solved_as_a_reference_is_not_solved_again():
     alone = grid_of(punch(), 1e-3, 3, round(models[-1].resolution.size)).solve()
     assert last.value == alone.value and last.error == alone.error
     finer = models[-1].resolution.size ** 2 / models[0].resolution.size ** 2
-    assert last.cost.work == pytest.approx(8 * 24 * models[-1].resolution.size ** 2)
+    assert last.cost.work == pytest.approx(8 * 19 * models[-1].resolution.size ** 2)
     assert alone.cost.work == pytest.approx(last.cost.work * (1 + 1 / 4 + 1 / 16))
     assert first.cost.work * finer == pytest.approx(alone.cost.work)
 
@@ -193,8 +194,8 @@ def test_boundary_elements_are_those_of_the_solver():
     assert surfaces > 8 and answer.error <= 0.15
     heights = (pressed_heights.height_of(punch(), 32, i, seed=3) for i in range(surfaces))
     drawn = [pressed_stiffness(height, 1 / 32, punch().load) for height in heights]
-    assert answer.value[0] == pytest.approx(np.mean(drawn), rel=1e-9)
-    assert answer.sample == pytest.approx(mean_error(np.array(drawn)[:, np.newaxis] / np.mean(drawn)), rel=1e-6)
+    assert answer.value[0] == pytest.approx(np.mean(drawn), rel=STIFFNESS_ERROR)
+    assert answer.sample == pytest.approx(mean_error(np.array(drawn)[:, np.newaxis] / np.mean(drawn)), rel=1e-3)
 
 
 drawn_on_a_grid = pressed_heights._drawn
@@ -242,7 +243,7 @@ def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
 
 
 @catches("Geike for the half-space under a wheel").at(
-    "validation.scenes.rolling_quantity.force_spectrum_3d", by_the_filter_of_one_dimension
+    "validation.scenes.rolling.force_spectrum_3d", by_the_filter_of_one_dimension
 )
 def test_the_expected_levels_are_integrals_of_the_spectrum():
     quantity = RollingQuantity(wheel(), "force-spectrum")
@@ -262,9 +263,7 @@ def test_the_expected_levels_are_integrals_of_the_spectrum():
         assert level**2 == pytest.approx(2 * integrate.quad(density, low, high, epsrel=1e-5)[0], rel=1e-4)
 
 
-@catches("a factor 2 lost in the variance of the force").at(
-    "validation.scenes.rolling_quantity.force_variance", Times(0.5)
-)
+@catches("a factor 2 lost in the variance of the force").at("validation.scenes.rolling.force_variance", Times(0.5))
 def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     rms = RollingQuantity(wheel(), "force-rms")
     c2d = rms.scene.ground.c2d
@@ -276,9 +275,7 @@ def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     assert np.sqrt(np.mean(ratio[levels.bands.centres > 4] ** 2)) == pytest.approx(10 ** (4 / 20), rel=0.15)
 
 
-@catches("one panel of a quadrature over decades", one_dimensional=False).at(
-    "validation.scenes.rolling_quantity.PANEL", 1e9
-)
+@catches("one panel of a quadrature over decades", one_dimensional=False).at("validation.scenes.rolling.PANEL", 1e9)
 @pytest.mark.parametrize("one_dimensional", [True, False])
 def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
     moving = wheel(first=1 / 100, last=4.0, mass=2.0, speed=400.0)
@@ -288,7 +285,7 @@ def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
 
 
 @catches("no resonator between force and acceleration").at(
-    "validation.scenes.rolling_quantity.RollingQuantity.transfer",
+    "validation.scenes.rolling.RollingQuantity.transfer",
     lambda quantity, q: np.ones_like(q) / quantity.scene.body.mass,
 )
 def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
@@ -355,9 +352,10 @@ def test_no_claim_depends_on_units(power, length):
 
 
 def test_scenes_are_asked_for_what_they_have():
-    assert quantities_of(punch()) == ("stiffness",)
+    of_punches = ("stiffness", "contact-area", "mean-gap")
+    assert quantities_of(punch()) == of_punches
     assert quantities_of(wheel()) == ("force-rms", "force-spectrum")
-    assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(all_quantities()) - {"stiffness", *RAIL_QUANTITIES}
+    assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(all_quantities()) - {*of_punches, *RAIL_QUANTITIES}
     with pytest.raises(ValueError, match=r"^quantity must be one of force-rms, force-spectrum for scene 'wheel'"):
         compare(wheel(), quantity="acceleration")
 
@@ -380,7 +378,9 @@ def test_what_was_not_solved_has_cost_nothing():
 def test_measured_heights_are_pressed_themselves():
     scene = punch(ground=measured(rough((64, 64), 1 / 64), 1 / 64), load=0.1)
     found = grids_of(scene, "stiffness", 0.05)[-1].solve()
-    assert found.value[0] == pytest.approx(pressed_stiffness(scene.ground.height, 1 / 64, scene.load), rel=1e-6)
+    assert found.value[0] == pytest.approx(
+        pressed_stiffness(scene.ground.height, 1 / 64, scene.load), rel=5 * STIFFNESS_ERROR
+    )
     assert found.sample == 0
 
 
@@ -474,7 +474,10 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     levels = np.arange(1.0, centres.size + 1)
     found = compared(Finding(value=tuple(levels), parts=PARTS), scene=scene, quantity=quantity)
     # 20 lg 1.1202 = 0.99 dB
-    assert "± 12 % (0.99 dB) over all bands: model 10 %, grid 2 %, sample 0.3 %" in " ".join(summary(found).split())
+    assert (
+        "± 12 % (0.99 dB) over all bands (95 %), of which model 10 %, discretisation 2 %, sampling 0.3 %; "
+        in " ".join(summary(found).split())
+    )
     columns = bands_of(found, found.model)
     assert list(columns)[-2:] == [f"level [dB re 1 {unit}]", "± [dB]"]
     wave, frequency, nominal, turns, rms, decibels, half = (np.array(cells, dtype=float) for cells in columns.values())

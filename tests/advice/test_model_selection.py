@@ -11,7 +11,7 @@ from tests.advice.planted_answers import Finding
 from validation.advice.cases import model_selection as ladder
 from validation.advice.cases import model_selection_study as calibration
 from validation.advice.cases.random_scenes import KINDS
-from validation.analysis.study import Outcomes
+from validation.analysis.case import Outcomes
 
 
 @pytest.mark.slow

@@ -9,6 +9,7 @@ from hypothesis import given
 from tests.analysis.test_judged_claims import point, points_with, verdicts
 from tests.seeded import catches
 from validation.analysis import claim_text
+from validation.analysis.case import Outcomes, Study
 from validation.analysis.claim_text import (
     NOT_THIS_CURVE,
     AnswerPattern,
@@ -16,15 +17,12 @@ from validation.analysis.claim_text import (
     HeadlinePattern,
     answer_pattern,
     headline_pattern,
-    listed,
 )
 from validation.analysis.claims import Claim, Matrix
-from validation.analysis.evidence import ClaimStatus, Role, Verdict
-from validation.analysis.number_text import decibels
+from validation.analysis.evidence import OF_NUMBERS, ClaimStatus, Role, Verdict, Whose
+from validation.analysis.number_text import decibels, enumeration
 from validation.analysis.ranges import verdict_ranges
 from validation.analysis.series import Margin, Series
-from validation.analysis.study import Outcomes, Study
-from validation.analysis.verdict import OF_NUMBERS
 
 AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
@@ -142,6 +140,56 @@ def test_limits_from_the_last_value_on_or_along_quantities(along, numbers, limit
     assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, limits)
 
 
+@catches("a number without the condition taken for one beyond the limits", verdict=DIFFER, limits="").at(
+    "validation.analysis.claims.Claim._without_place", lambda claim, numbers: []
+)
+@pytest.mark.parametrize(("verdict", "limits"), [(AGREE, "up to h/d = 1"), (DIFFER, ""), (UNDECIDED, "")])
+def test_a_number_without_the_condition_must_agree_whatever_the_limits(verdict, limits):
+    everywhere = number(verdict)
+    judged = CLAIM.judged([*by_height(AGREE, AGREE), everywhere, number(DIFFER, **{"h/d": 9.0})])
+    assert judged.status is (ClaimStatus.LIMITED if limits else ClaimStatus.REFUTED)
+    assert judged.limits == limits and (everywhere in judged.inside) == (verdict is AGREE)
+
+
+def test_a_number_without_the_condition_has_no_place_in_the_answer():
+    """Whether it decides, or is inconclusive beside others at their places."""
+    refuted = CLAIM.judged([*by_height(AGREE, AGREE), number(DIFFER), number(UNDECIDED, **{"h/d": 9.0})])
+    assert refuted.answer == ("Refuted: +3.00 ± 0.10 dB, tolerance 1 dB; within tolerance only at h/d = 0.1 to 1.")
+    numbers = [*by_height(AGREE, AGREE, UNDECIDED), number(UNDECIDED), number(DIFFER, **{"h/d": 90.0})]
+    assert CLAIM.judged(numbers).answer == (
+        "Refuted: +3.00 ± 0.10 dB at h/d = 90, tolerance 1 dB; within tolerance only at h/d = 0.1 to 1; "
+        "inconclusive at h/d = 10."
+    )
+
+
+def in_their_order(numbers, name):
+    return {n.where[name]: [other for other in numbers if other.where[name] == n.where[name]] for n in numbers}
+
+
+@catches("limits along places as they come").at("validation.analysis.claims.by_place", in_their_order)
+def test_limits_are_along_values_in_ascending_order():
+    """Another quantity differs at 0.5, below the largest height at which the first agrees."""
+    numbers = [*by_height(AGREE, AGREE, AGREE), *by_height(AGREE, quantity="slope")]
+    numbers.append(number(DIFFER, quantity="slope", **{"h/d": 0.5}))
+    judged = Claim(says="It is so.", along="h/d").judged(numbers)
+    assert (judged.status, judged.limits) == (ClaimStatus.REFUTED, "")
+
+
+@pytest.mark.parametrize(
+    ("places", "limits", "rest"),
+    [
+        (("a", "b", 0.5, "d"), "from a to 0.5", "Supported for a, within 1 dB; inconclusive for b and 0.5; elsewhere "),
+        ((0.5, "b", "c", "d"), "from 0.5 to c", "; within tolerance only at g = 0.5; inconclusive for b and c."),
+    ],
+)
+def test_places_are_named_where_a_region_is_among_them(places, limits, rest):
+    def judged(*verdicts):
+        return Claim(along="g").judged([number(v, g=place) for v, place in zip(verdicts, places, strict=True)])
+
+    assert judged(AGREE, AGREE, AGREE, DIFFER).limits == limits
+    assert rest in judged(AGREE, UNDECIDED, UNDECIDED, DIFFER).answer
+
+
 def test_limits_need_a_number_of_each_quantity():
     numbers = [*by_height(AGREE, DIFFER), *by_height(DIFFER, DIFFER, quantity="rms of level")[1:]]
     assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.REFUTED
@@ -178,6 +226,12 @@ def test_members_are_chosen_by_quantity_model_and_conditions():
     assert chosen(model="b", where={"across": float}) == [] and len(chosen(where={"h/d": float})) == 1
     both = ({"model": "b"}, {"where": {"h/d": 0.1}})
     assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
+
+
+def test_whose_statement_a_claim_is_is_checked_where_it_is_made():
+    with pytest.raises(TypeError, match=r"^whose of the claim 'level' must be one of Whose\.BOOK, .*, got 'the book'$"):
+        Claim(key="level", whose="the book")
+    assert [Whose(whose.earlier) for whose in Whose] == list(Whose)
 
 
 def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
@@ -348,8 +402,8 @@ def test_numbers_are_printed_by_the_printer_of_the_claim():
 
 
 def test_names_are_listed_apart_from_the_commas_that_they_have():
-    assert [listed(["a"]), listed(["a", "b"]), listed(["a", "b", "c"])] == ["a", "a and b", "a, b and c"]
-    assert listed(["a, 1", "b", "c"]) == "a, 1; b; c"
+    assert [enumeration(["a"]), enumeration(["a", "b"]), enumeration(["a", "b", "c"])] == ["a", "a and b", "a, b and c"]
+    assert enumeration(["a, 1", "b", "c"]) == "a, 1; b; c"
 
 
 def test_a_matrix_has_a_cell_for_each_number_with_its_verdict():

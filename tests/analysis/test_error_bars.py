@@ -22,7 +22,7 @@ from validation.analysis.statistics import (
 from validation.cases.limits.limits import threshold
 from validation.cases.limits.sweeps import Sweep
 from validation.simulation.free_vibration import fit_drift
-from validation.simulation.probing import swept
+from validation.simulation.limits import swept
 
 # --- of a mean, of a ratio, of a difference ---
 

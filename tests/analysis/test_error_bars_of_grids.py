@@ -10,6 +10,7 @@ from scipy import stats
 from tests.analysis.intervals import covered, holds, t
 from tests.seeded import catches
 from validation.analysis import statistics
+from validation.analysis.case import Outcomes
 from validation.analysis.series import Series
 from validation.analysis.statistics import (
     DECIBEL,
@@ -17,14 +18,13 @@ from validation.analysis.statistics import (
     Linearised,
     Resolved,
     combined,
+    extrapolate_to_zero,
     extrapolated,
     jackknifed,
     on_finest,
-    on_no_size,
     student,
 )
-from validation.analysis.study import Outcomes
-from validation.benchmarks.work_precision.errors import MethodValues, error
+from validation.benchmarks.work_precision.pareto import MethodValues, error
 from validation.benchmarks.work_precision.problem import ChartQuantity, mean_of
 from validation.cases.punch import fractal_punch_study as study
 from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS
@@ -74,7 +74,7 @@ def steps(*values, error=0.01, n=50):
 
 
 def compared(bem, springs, *, name=MEAN_STIFFNESS, among=4):
-    apart = on_finest(list(springs.values())).minus_independent(on_no_size(list(bem.values())))
+    apart = on_finest(list(springs.values())).minus_independent(extrapolate_to_zero(list(bem.values())))
     return number_of(apart, name, among)
 
 

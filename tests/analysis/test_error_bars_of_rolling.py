@@ -9,10 +9,10 @@ import pytest
 from tests.analysis.intervals import TRIALS, holds
 from tests.seeded import catches
 from validation.analysis import statistics
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import number_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import POWER_DECIBEL, log_ratio_of_means
-from validation.analysis.study import Outcomes
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling.force_spectrum import OVER, RMS_LEVEL, SPRINGS, octaves_of
 from validation.simulation.rolling_strip import level_3d

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from tests.analysis.intervals import covered, ends, holds
+from validation.analysis.case import Outcomes
 from validation.analysis.series import Estimates
 from validation.analysis.statistics import POWER_DECIBEL, Estimate
-from validation.analysis.study import Outcomes
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
-from validation.cases.wheel.features import FLOOR, Spectrum, measured
+from validation.cases.wheel.ensembles import FLOOR, Spectrum, measured
 
 
 def test_the_law_of_the_break_covers_its_truth():
@@ -93,7 +93,7 @@ def test_a_band_in_three_dimensions_has_all_of_its_errors():
     bands = len(levels.centres)
     groups = 0.01 * np.random.default_rng(0).standard_normal((6, bands))
     springs = Estimates.ratios(np.exp(groups), np.ones(bands))
-    levels.__dict__.update(springs=springs, exact=np.zeros(bands))
+    levels.__dict__.update(springs=lambda model: springs, exact=np.zeros(bands))
     theory, springs = (levels.over_bem(model)[0] for model in (wheel_3d.LINEAR_3D, wheel_3d.GEIKE))
     # of small logarithms, the spread of their means
     own = groups[:, 0].std(ddof=1) / math.sqrt(6)

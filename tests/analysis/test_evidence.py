@@ -92,3 +92,9 @@ def test_two_numbers_of_one_label_are_refused(models):
 def test_numbers_that_differ_in_a_part_of_their_key_have_labels_of_their_own():
     keys = {"quantity": "y"}, {"model": "m"}, {"where": {"H": 0.7}}, {"where": {"H": 0.8}}, {"where": {"band": "low"}}
     assert len(evidence([number(), *(number(**key) for key in keys)]).numbers) == 1 + len(keys)
+
+
+def test_a_table_is_there_if_one_has_the_name():
+    tables = (Table("a", {"x": [1.0]}), Table("b", {"x": [2.0]}))
+    some = Evidence(title="t", method="m", numbers=(), tables=tables, conclusions=(), captions={})
+    assert some.has_table("b") and not some.has_table("c")

@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 
 from tests.seeded import catches
 from validation.analysis import series, statistics
-from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
+from validation.analysis.evidence import OF_NUMBERS, ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
 from validation.analysis.series import root_mean_square, worst
 from validation.analysis.statistics import Estimate, student
-from validation.analysis.verdict import OF_NUMBERS
 
 AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 OFF = {AGREE: (0.0, 0.0), DIFFER: (5.0, 0.0), UNDECIDED: (1.0, 0.5)}

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from tests.analysis.intervals import covered, ends, holds
 from tests.seeded import catches, module_with
 from validation.analysis import statistics
 from validation.analysis.statistics import Linearised, log, moments, multilevel_moments, weighted_sum
@@ -175,3 +176,75 @@ def test_what_a_realisation_contributes_to_a_variance_is_what_leaving_it_out_cha
     found = moments(values, np.ones(5, dtype=bool)).variance
     changes = [np.var(values, ddof=1) - np.var(np.delete(values, i), ddof=1) for i in range(5)]
     np.testing.assert_allclose(found.influence / found.influence[4], np.array(changes) / changes[4], rtol=1e-9)
+
+
+# --- a mean by regression on what more realisations are known of ---
+
+
+right_regression = statistics.regression_mean
+
+
+def scores(rng, drawn):
+    """Three statistics of each realisation, and y, 2 in the mean: nearly linear in them, with scatter of its own."""
+    x = rng.standard_normal((drawn, 3))
+    return x, 2 + x @ [1.0, 0.7, 0.5] + 0.05 * (x[:, 0] ** 2 - 1) + 0.3 * rng.standard_normal(drawn)
+
+
+def without_the_difference(values, controls):
+    """The error of a mean by regression at the plain mean."""
+    return replace(right_regression(values, controls), value=float(np.mean(values)))
+
+
+@catches("a control variate that is not subtracted", size=30, drawn=3000).at(
+    "validation.analysis.statistics.regression_mean", without_the_difference
+)
+@catches("degrees of freedom that a regression has used", size=12, drawn=3000).at(
+    "validation.analysis.statistics.np", module_with(np, linalg=module_with(np.linalg, matrix_rank=lambda x: 0))
+)
+@catches("the mean of a control variate without its error", size=30, drawn=60).at(
+    "validation.analysis.statistics.regression_mean",
+    lambda values, controls: right_regression(values, np.tile(controls, (50, 1))),
+)
+@catches("a slope of the wrong sign", size=30, drawn=3000).at(
+    "validation.analysis.statistics.regression_mean",
+    lambda values, controls: right_regression(2 * values.mean() - values, controls),
+)
+@pytest.mark.parametrize(("size", "drawn"), [(12, 3000), (30, 60), (30, 3000), (200, 2000)])
+def test_the_interval_of_a_mean_by_regression_holds(size, drawn):
+    """Also where few have y, all have used degrees of freedom, or the statistics are known of few more."""
+    rng = np.random.default_rng(size + drawn)
+
+    def estimate():
+        x, y = scores(rng, drawn)
+        return ends(statistics.regression_mean(y[:size], x))
+
+    assert holds(covered(estimate, 2.0), wide=0.01)
+
+
+def test_a_mean_by_regression_has_the_scatter_that_is_left():
+    """Of y alone 1.36^2; s^2 / n of the residuals, and the part that goes with x over all that are drawn."""
+    x, y = scores(np.random.default_rng(2), 20000)
+    found = statistics.regression_mean(y[:500], x)
+    assert found.error == pytest.approx(math.sqrt(0.3075**2 / 500 + 1.74 / 20000), rel=0.1)
+    assert found.error < 0.3 * moments(y[:500], np.ones(500, dtype=bool)).mean.error
+
+
+def test_a_mean_by_regression_on_nothing_is_the_plain_mean():
+    """Of few realisations, by statistics that do not scatter, and by none; and what has no statistics is not used."""
+    y = np.array([1.0, 2.0, 4.0, 3.0] * 6)
+    plain = moments(y, np.ones(24, dtype=bool)).mean
+    for values, controls in ((y, np.ones((30, 2))), (y, np.arange(48.0).reshape(24, 2) // 48)):
+        found = statistics.regression_mean(values, controls)
+        assert (found.value, found.error) == pytest.approx((plain.value, plain.error))
+    few = statistics.regression_mean(y[:8], np.arange(20.0).reshape(10, 2))
+    assert (few.value, few.influence.size) == (y[:8].mean(), 10)
+    beyond = statistics.regression_mean(np.append(y, 1e9), np.ones((24, 1)))
+    assert beyond.value == pytest.approx(plain.value) and beyond.influence[-1] == 0
+
+
+def test_lost_values_are_not_part_of_a_mean_by_regression():
+    x, y = scores(np.random.default_rng(3), 40)
+    lost = np.where(np.arange(40) % 4, y, np.nan)
+    order = np.argsort(np.isnan(lost), kind="stable")
+    one, other = right_regression(lost, x), right_regression(y[order][:30], x[order])
+    assert (one.value, one.error) == pytest.approx((other.value, other.error))

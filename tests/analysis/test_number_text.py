@@ -10,14 +10,17 @@ from validation.analysis.number_text import (
     decibels,
     decibels_rms,
     deviation_text,
+    enumeration,
     format_seconds,
     half_open_text,
     half_width_text,
     in_seconds,
     interval_text,
+    level_in_decibels,
     off_by,
     per_cent,
     place_value,
+    plus_minus,
     scaled,
     share,
     short,
@@ -30,6 +33,10 @@ from validation.analysis.number_text import (
     with_prefix,
     with_reference,
 )
+
+
+def test_a_value_without_a_finite_interval_says_so():
+    assert plus_minus(12.3, math.inf) == "12 ± unknown"
 
 
 @pytest.mark.parametrize(
@@ -112,3 +119,12 @@ def test_durations_and_prefixes_of_units():
 
 def test_a_deviation_is_in_per_cent_or_decibels():
     assert (deviation_text(0.12, "-", "+"), deviation_text(-3.14, "dB")) == ("+12 %", "-3.1 dB")
+
+
+def test_a_level_that_rounds_to_nothing_has_no_minus():
+    assert [level_in_decibels(level) for level in (-0.04, 0.04, -0.06)] == ["+0 dB", "+0 dB", "-0.1 dB"]
+
+
+def test_two_names_with_commas_are_joined_by_and():
+    """Of three the commas would not tell where one ends."""
+    assert enumeration(["a, 1", "b"]) == "a, 1 and b"

@@ -12,7 +12,7 @@ from tests.seeded import catches
 from validation.analysis import ranges
 from validation.analysis.claim_text import alone_text, conditions_text
 from validation.analysis.claims import Claim
-from validation.analysis.evidence import Verdict
+from validation.analysis.evidence import OF_NUMBERS, Verdict
 from validation.analysis.ranges import (
     SeparatingCondition,
     common_verdict,
@@ -22,7 +22,6 @@ from validation.analysis.ranges import (
     worst_place,
 )
 from validation.analysis.series import worst
-from validation.analysis.verdict import OF_NUMBERS
 
 AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 HURSTS = (0.4, 0.7, 1.0)

@@ -75,7 +75,7 @@ def test_a_reference_with_an_error_widens_the_interval_and_one_without_does_not(
 
 def test_a_change_to_finer_cells_is_what_the_grid_leaves():
     finer = estimates(0.1, error=0.02)
-    value = estimates(1.0, error=0.05).on_no_size(finer)
+    value = estimates(1.0, error=0.05).extrapolate_to_zero(finer)
     (number, _) = Series("x", "m", value, along="q", at=(1.0,), grid=finer, scale=2.0, margin=NEAR, family=3).numbers
     expected, left = extrapolated(Estimate(1.0, 0.05, 5), finer[0], 3)
     assert number.value == pytest.approx(2 * expected.value) and number.grid == pytest.approx(2 * left)

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from validation.analysis.sound import Sound, Sounds, a_weighting, common_full_scale, filtered, powers_of_blocks
+from validation.analysis.spectra import (
+    Sound,
+    Sounds,
+    a_weighting,
+    common_full_scale,
+    energy_sum,
+    filtered,
+    powers_of_blocks,
+)
 
 
 def test_what_is_left_over_is_in_no_piece():
@@ -40,3 +48,9 @@ def test_two_sounds_of_one_name_are_refused():
 def test_the_weighting_is_zero_at_one_kilohertz_to_what_two_decibels_are_rounded():
     """A wrong digit of a corner, as 739.7 for 737.9 Hz, is 0.01 dB there, and no table to a tenth shows it."""
     assert a_weighting(1e3) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_the_energies_of_levels_add_up():
+    """Ten equal levels are 10 dB more, and one of nothing adds nothing."""
+    assert energy_sum([60.0] * 10) == pytest.approx(70.0)
+    assert energy_sum([60.0, -300.0]) == pytest.approx(60.0)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d.transverse_profile import equivalent_radius
+from bem3d.smooth_wheel import equivalent_radius
 from tests.seeded import catches
 
 SETTINGS = {"spacing": 2.5e-4, "modulus": 1.154e11}

@@ -10,18 +10,17 @@ import pytest
 from tests.benchmarks.made_up import MEAN, k
 from tests.seeded import Times, catches, module_with
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
-from validation.benchmarks.work_precision import errors
-from validation.benchmarks.work_precision.errors import MethodValues, error, points, reference_of
-from validation.benchmarks.work_precision.pressed import log_deviation
-from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartQuantity, mean_of
-from validation.engine.convergence import NotConvergedError
+from validation.benchmarks.work_precision import pareto
+from validation.benchmarks.work_precision.pareto import MethodValues, error, points, reference_of
+from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartQuantity, log_deviation, mean_of
+from validation.engine.realisations import NotConvergedError
 
 LEVEL = mean_of("level", "k", decibel=True, order=2.0)
 
 
 @catches("the same surfaces taken for others").at(
     f"{__name__}.error",
-    lambda quantity, mine, reference: errors.error(quantity, dataclasses.replace(mine, paired=False), reference),
+    lambda quantity, mine, reference: pareto.error(quantity, dataclasses.replace(mine, paired=False), reference),
 )
 def test_what_realisations_have_of_their_own_drops_out_of_paired_errors():
     drawn = np.random.default_rng(1).lognormal(0, 0.3, 12)
@@ -54,11 +53,11 @@ def at_first_order(answer, quantity, rows):
     return log_of_answer(answer, dataclasses.replace(quantity, order=1.0), rows)
 
 
-log_of_answer = errors.MethodValues.log
+log_of_answer = pareto.MethodValues.log
 
 
 @catches("first order for second in an extrapolation", order=2.0).at(
-    "validation.benchmarks.work_precision.errors.MethodValues.log", at_first_order
+    "validation.benchmarks.work_precision.pareto.MethodValues.log", at_first_order
 )
 @pytest.mark.parametrize("order", [1.0, 2.0])
 def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
@@ -82,7 +81,7 @@ def test_levels_differ_by_the_root_mean_square_of_decibels():
 
 
 @catches("an error that luck has made small, and its interval", quantity=MEAN, paired=True).at(
-    "validation.benchmarks.work_precision.errors.math", module_with(math, copysign=lambda *_: 1.0)
+    "validation.benchmarks.work_precision.pareto.math", module_with(math, copysign=lambda *_: 1.0)
 )
 @pytest.mark.parametrize("quantity", [MEAN, LEVEL])
 @pytest.mark.parametrize("paired", [True, False])

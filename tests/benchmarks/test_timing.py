@@ -7,7 +7,7 @@ from tests.benchmarks.made_up import named, timed_problem
 from validation.benchmarks import timing
 from validation.benchmarks.timing import FINISHED
 from validation.benchmarks.work_precision import problem as precision
-from validation.benchmarks.work_precision.errors import points
+from validation.benchmarks.work_precision.pareto import points
 from validation.simulation.method import Result, Solve
 
 

@@ -10,9 +10,9 @@ from tests.cases.planted import statuses
 from tests.oracles import spring_sum
 from tests.seeded import catches
 from validation.analysis import statistics
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import ClaimStatus, numbers_with
 from validation.analysis.statistics import nearest
-from validation.analysis.study import Outcomes
 from validation.cases.punch import bandwidth, fractal_punch_study
 from validation.cases.punch.bandwidth import AREA, DOUBLED, FINER, LOADS, ROLL_OFF, Band, Bandwidth, Deviations
 from validation.cases.punch.bandwidth_study import CASE, DRIFT, ROLLED, STUDY

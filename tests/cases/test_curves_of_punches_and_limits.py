@@ -8,8 +8,8 @@ import pytest
 
 from tests.cases.test_fractal_punch import LEVELS
 from tests.cases.test_limits import STEEP
+from validation.analysis.case import Outcomes
 from validation.analysis.series import tables_of
-from validation.analysis.study import Outcomes
 from validation.cases.limits import limits
 from validation.cases.limits.sweeps import Sweep
 from validation.cases.punch import fractal_punch as punch

@@ -9,10 +9,10 @@ import pytest
 
 from tests.analysis.test_judged_claims import point
 from tests.seeded import catches
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import Role, Verdict, numbers_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, Linearised, Resolved, student
-from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch, fractal_punch_study
 from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS
@@ -146,7 +146,7 @@ def result_of(bem, finer, springs, height=0.1, case=ROLLING):
 
 
 @catches("levels of the finest cells for those of no size").at(
-    "validation.analysis.series.Estimates.on_no_size", lambda mine, finer: mine
+    "validation.analysis.series.Estimates.extrapolate_to_zero", lambda mine, finer: mine
 )
 def test_the_rms_and_the_mean_force_are_those_on_cells_of_no_size():
     """Boundary elements 10 % over linear theory in power, 2 % less on finer cells; springs 30 % over it."""

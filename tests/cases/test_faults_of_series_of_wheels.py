@@ -8,10 +8,10 @@ import pytest
 
 from tests.analysis.test_error_bars_of_wheels import strips_of
 from tests.seeded import catches
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import numbers_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, student
-from validation.analysis.study import Outcomes
 from validation.cases.wheel import half_space, half_space_study
 
 

@@ -13,7 +13,7 @@ import bem3d
 from tests.cases.planted import TABLE
 from tests.seeded import catches
 from validation.advice.cases import model_selection
-from validation.analysis.study import Outcomes, Study
+from validation.analysis.case import Outcomes, Study
 from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
 from validation.benchmarks.work_precision.case import failure_messages
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR
@@ -21,10 +21,10 @@ from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, bandwidth_study, fractal_punch, interface
 from validation.cases.rolling import force_spectrum, ridges
 from validation.cases.wheel import distance, half_space, spectrum
-from validation.engine.convergence import NotConvergedError
+from validation.engine.realisations import NotConvergedError
 from validation.simulation import rolling_strip, rough_punch, wheel_on_springs
-from validation.simulation.probing import swept
-from validation.simulation.ridges import RidgesTrack
+from validation.simulation.limits import swept
+from validation.simulation.rolling_strip import RidgesTrack
 
 
 class Given:

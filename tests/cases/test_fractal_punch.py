@@ -11,21 +11,28 @@ import pytest
 import bem3d
 import mdr
 from tests.oracles import approach_by_least_squares, dense_operator, spring_sum
-from tests.seeded import catches, catches_root_of_two
+from tests.seeded import catches, catches_root_of_two, module_with
 from validation.analysis import statistics
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.analysis.statistics import Resolved
-from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch
 from validation.cases.punch.ensembles import APPLICATIONS, DEVIATION, MEAN, OVER, worked
 from validation.cases.punch.fractal_punch import CONVEX, LONG, SLOPE, TREND, FractalPunch
 from validation.cases.punch.fractal_punch_study import EXPONENT, LESS, STUDY
 from validation.cases.rolling.force_spectrum import ForceSpectrum
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
-from validation.simulation.rough_punch import PunchRoughness, press_profiles, press_surface
+from validation.simulation.rough_punch import (
+    STIFFNESS_ERROR,
+    PunchRoughness,
+    measure_faces,
+    press_lightly,
+    press_profiles,
+    press_surface,
+)
 
 CASE = FractalPunch(
     hursts=(0.7,),
@@ -79,7 +86,7 @@ def test_surfaces_are_pressed_as_they_stand():
         pressure = bem3d.solve(half_space, -height, approach=approach, tolerance=1e-10).pressure
         cells = np.flatnonzero(pressure > 0)
         stiffness = np.linalg.solve(dense[np.ix_(cells, cells)], np.ones(cells.size)).sum() / 64
-        assert found["stiffness"][i] == pytest.approx(stiffness, rel=1e-5)
+        assert found["stiffness"][i] == pytest.approx(stiffness, rel=5 * STIFFNESS_ERROR)
         assert found["area"][i] == pytest.approx(cells.size / 64)
         gap = dense @ pressure.ravel() - height.ravel() - approach
         # a residual of 1e-5 leaves so much of the overlap
@@ -183,19 +190,20 @@ def numbers(evidence, name):
     "validation.analysis.statistics.Resolved.minus_independent",
     lambda a, b: Resolved(a.value.minus_independent(b.value), 0.0),
 )
-@catches("no extrapolation").at("validation.cases.punch.fractal_punch.on_no_size", statistics.on_finest)
+@catches("no extrapolation").at("validation.cases.punch.fractal_punch.extrapolate_to_zero", statistics.on_finest)
 def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
     """First order: 5 % stiffer on cells half as wide is 10 % at cells of no size. Cells twice as wide that are 10 %
     softer say the same but for what the logarithms differ by, and that is left. No change of the deviation."""
     evidence = synthetic(fine=1.05, coarse=1 / 1.1)
     left = 20 * abs(2 * np.log10(1.05) - np.log10(1.1))
     assert [n.value for n in numbers(evidence, MEAN)] == pytest.approx([-20 * 2 * np.log10(1.05)] * 2, abs=1e-3)
+    solver = 20 / math.log(10) * 3 * STIFFNESS_ERROR
     for found, name, grid in (
-        (evidence, MEAN, left),
-        (evidence, DEVIATION, 0),
-        (synthetic(fine=1.05), MEAN, 20 * 2 * np.log10(1.05)),
+        (evidence, MEAN, math.hypot(left, solver)),
+        (evidence, DEVIATION, 6 * solver),
+        (synthetic(fine=1.05), MEAN, math.hypot(20 * 2 * np.log10(1.05), solver)),
     ):
-        assert [n.grid for n in numbers(found, name)] == pytest.approx([grid] * 2, abs=1e-6)
+        assert [n.grid for n in numbers(found, name)] == pytest.approx([grid] * 2, abs=2e-5)
 
 
 @catches("the mean of a decade for its worst force").at(
@@ -363,3 +371,89 @@ def test_work_counts_loads_alike():
     work = np.stack([light, heavy], axis=1)
     outcome = {"applications": work, "frozen applications": np.zeros_like(work)}
     assert worked(64, 2048, [outcome])[APPLICATIONS] == pytest.approx([10.25])
+
+
+# --- heights of more surfaces than are pressed ---
+
+DRAWN_MANY = replace(CASE, cells=64, drawn=1200, surfaces=((60, 12, 8, 4, 0),), decades=(-1, 0))
+
+
+def heights_of(case=DRAWN_MANY):
+    return np.concatenate([measure_faces(part)["heights"] for part in case.faces(0.7)])
+
+
+@catches("edges of a punch that carry no more than its middle").at(
+    "validation.simulation.rough_punch.bem3d",
+    module_with(bem3d, solve_fixed_area=lambda half_space, contact: types.SimpleNamespace(pressure=contact / 1.0)),
+)
+def test_heights_of_a_face_are_those_of_its_points():
+    """Over h: means of the highest cells one by one; moments weighted by the pressure of a dense flat punch."""
+    found, cells = heights_of(), 16
+    assert found.shape == (1200, 6)
+    dense = dense_operator(bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0))
+    pressure = np.linalg.solve(dense, np.ones(cells**2))
+    weight = pressure / pressure.sum()
+    for i in (0, 7, 1100):
+        height = DRAWN_MANY.roughness(0.7, cells).surface(cells, i).ravel() / DRAWN_MANY.height
+        highest = sorted(height)[::-1]
+        mean = weight @ height
+        expected = [highest[0], np.mean(highest[:3]), np.mean(highest[:26])]
+        expected += [mean, weight @ (height - mean) ** 2, weight @ (height - mean) ** 3]
+        np.testing.assert_allclose(found[i], expected, rtol=1e-5, atol=1e-5)
+
+
+right_mean = statistics.regression_mean
+
+
+@catches("heights of other surfaces than those that are pressed").at(
+    "validation.analysis.statistics.regression_mean",
+    lambda values, controls: right_mean(values, np.roll(controls, 1, axis=0)),
+)
+@pytest.mark.slow
+def test_the_mean_stiffness_of_a_real_ensemble_is_within_its_error_bar():
+    """480 punches on 16^2 cells, of which 40 are taken at a time: the mean of all is covered in 90 to 99 of 100, with
+    less than half of the variance of the plain mean."""
+    rng, case = np.random.default_rng(4), replace(DRAWN_MANY, surfaces=((480, 12, 8, 4, 0),))
+    stiffness = np.array([press_lightly(case.surface(0.7, i, 16))["stiffness"] for i in range(480)])
+    heights = heights_of(case)[:480]
+    for of_level in stiffness.T:
+        covered, errors = [], []
+        for _ in range(300):
+            order = rng.permutation(480)
+            mean = statistics.regression_mean(of_level[order[:40]], heights[order])
+            covered.append(abs(mean.value - of_level.mean()) < mean.half_width)
+            errors.append(mean.value - of_level.mean())
+        assert 0.9 <= np.mean(covered) <= 0.99
+        assert np.mean(np.square(errors)) < 0.5 * of_level.var(ddof=1) * (1 / 40 - 1 / 480)
+
+
+@catches("a mean of Fig. 14.1 without the heights of more surfaces").at(
+    "validation.cases.punch.fractal_punch.regression_mean", lambda values, controls: moments_of_all(values).mean
+)
+@pytest.mark.slow
+def test_heights_of_more_surfaces_make_the_mean_of_all_grids_surer_and_leave_the_deviation():
+    result = fractal_punch.run(DRAWN_MANY)
+    without = Outcomes(result.case, {k: v for k, v in result.by_key.items() if k[1] != fractal_punch.HEIGHTS})
+    surer, plain = (fractal_punch.PunchStatistics(one) for one in (result, without))
+    for level in range(2):
+        steps = [of.steps(0.7, BEM, MEAN, level) for of in (surer, plain)]
+        assert steps[0][16].error < 0.8 * steps[1][16].error
+        gains = [steps[0][cells].value - steps[1][cells].value for cells in (16, 32, 64)]
+        assert max(gains) - min(gains) < 0.1 * max(map(abs, gains))
+        assert all(abs(gain) < 3 * steps[1][16].error for gain in gains)
+        deviations = [of.at(0.7, BEM, DEVIATION, level) for of in (surer, plain)]
+        assert deviations[0].value.value == deviations[1].value.value
+        assert deviations[0].value.half_width == pytest.approx(deviations[1].value.half_width)
+
+
+def moments_of_all(values):
+    return statistics.moments(values, np.isfinite(values))
+
+
+def test_heights_are_measured_where_they_are_used():
+    """In parts of 500; of no surface where the coarsest grid has none; of all that are pressed there at the least."""
+    assert [(part.first, part.realisations) for part in DRAWN_MANY.faces(0.7)] == [(0, 500), (500, 500), (1000, 200)]
+    assert DRAWN_MANY.controlled
+    assert not CASE.controlled and not replace(DRAWN_MANY, drawn=0).controlled
+    with pytest.raises(ValueError, match="drawn must be none or all surfaces of the coarsest grid at least, got 59"):
+        replace(DRAWN_MANY, drawn=59)

@@ -9,12 +9,12 @@ import pytest
 import bem3d
 from tests.cases.planted import judged, statuses
 from tests.seeded import Times, catches, module_with
+from validation.analysis.case import Outcomes
 from validation.analysis.evidence import ClaimStatus
-from validation.analysis.study import Outcomes
 from validation.cases.rolling import reduced_models as models
 from validation.cases.rolling import track_stiffness as stiffness
 from validation.cases.rolling.force_spectrum import ForceSpectrum
-from validation.simulation import rolling_strip, roughness_from_force
+from validation.simulation import rolling_strip
 from validation.simulation.reduced_models import COARSEST, JUDGE, LINEAR, MODELS, READ, bands_of, roll_by_all
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, level_3d, over_bands
 from validation.simulation.track_spectrum import TrackSpectrum, self_affine
@@ -36,25 +36,23 @@ def off(found):
 
 
 @catches("factor 2 lost in the mean filter, read backwards").at(
-    "validation.simulation.roughness_from_force.mean_force_spectrum_1d", Times(0.5)
+    "validation.simulation.rolling_strip.mean_force_spectrum_1d", Times(0.5)
 )
 def test_the_mean_filter_finds_the_roughness_of_the_mean_force():
     """To the bend of the spectrum in a band."""
     levels = over_bands(lambda q: mean_force_spectrum_1d(q, GEIKE, modulus=1.0), CASE.bands) / HERTZ**2
-    assert np.abs(off(roughness_from_force.by_mean_filter(CASE.bands, levels))).max() < 0.25
+    assert np.abs(off(rolling_strip.by_mean_filter(CASE.bands, levels))).max() < 0.25
 
 
 @catches("half of the height in the filter of three dimensions, read backwards").at(
-    "validation.simulation.roughness_from_force.level_3d", Times(0.5)
+    "validation.simulation.rolling_strip.level_3d", Times(0.5)
 )
 def test_the_filter_in_three_dimensions_finds_isotropic_roughness():
     """And next to nothing below it, where the mean filter finds a twelfth of it."""
-    roughness_from_force.filter_3d.cache_clear()
+    rolling_strip.filter_3d.cache_clear()
     levels = level_3d(CASE.spectrum, CASE.bands)
-    in_1d, in_3d = (
-        read(CASE.bands, levels) for read in (roughness_from_force.by_mean_filter, roughness_from_force.by_filter_3d)
-    )
-    roughness_from_force.filter_3d.cache_clear()
+    in_1d, in_3d = (read(CASE.bands, levels) for read in (rolling_strip.by_mean_filter, rolling_strip.by_filter_3d))
+    rolling_strip.filter_3d.cache_clear()
     assert np.abs(off(in_3d)).max() < 0.3
     below = np.array(CASE.bands.edges[1:]) < 1
     assert in_3d[below].sum() < 0.01 * TRUE.sum() and in_1d[below].sum() > 0.08 * TRUE.sum()

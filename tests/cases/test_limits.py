@@ -16,9 +16,8 @@ from validation.analysis.evidence import Role, Verdict
 from validation.cases.limits import limits as case
 from validation.cases.limits import sweeps
 from validation.cases.limits.sweeps import LIMITS, Failing, Judged, Limit, LimitName, Probe, Sweep
-from validation.simulation import limits_of_half_space as elements
-from validation.simulation import limits_of_springs as springs
-from validation.simulation.probing import recorded, swept
+from validation.simulation import limits
+from validation.simulation.limits import recorded, swept
 from validation.simulation.track_spectrum import self_affine
 from validation.theory.rolling import force_variance
 
@@ -201,32 +200,32 @@ def test_sum_over_the_lattice_by_ewald():
     i = np.arange(-6, 7)
     n = np.hypot(i[:, np.newaxis], i)
     n = n[n > 0]
-    assert 2 * np.sum(special.erfc(np.sqrt(np.pi) * n) / n) - 4 == pytest.approx(-elements.LATTICE, rel=1e-6)
+    assert 2 * np.sum(special.erfc(np.sqrt(np.pi) * n) / n) - 4 == pytest.approx(-limits.LATTICE, rel=1e-6)
 
 
 def test_stiffness_of_a_lone_cell():
     body = bem3d.HalfSpace(shape=(1, 1), spacing=0.3, modulus=2.0)
     k = 0.3**2 / dense_operator(body)[0, 0]
-    assert k / (2.0 * 0.3) == pytest.approx(elements.LONE_CELL, rel=1e-9)
+    assert k / (2.0 * 0.3) == pytest.approx(limits.LONE_CELL, rel=1e-9)
 
 
 @catches("factor 2 lost in the periodic symbol, seen by images").at("bem3d.kernel.periodic_symbol", Times(0.5))
 def test_images_err_as_the_lattice_sum_says():
     """1.655 a / L, but for (a / L)^3 of the forces of images that are no points, and the kernels of the cells."""
-    found = elements.images((6, 12, 24), fine=8)
-    expected = elements.LATTICE * 4 / (3 * np.pi) / found["values"]
+    found = limits.images((6, 12, 24), fine=8)
+    expected = limits.LATTICE * 4 / (3 * np.pi) / found["values"]
     assert found["error"][0] == pytest.approx(expected, rel=0.025)
 
 
-@catches("factor 4 lost over a stretched surface").at("validation.simulation.limits_of_springs.response", Times(0.5))
+@catches("factor 4 lost over a stretched surface").at("validation.simulation.limits.response", Times(0.5))
 def test_a_stretched_surface_by_another_quadrature():
     """Isotropic it is force_variance; of short waves the variance does not depend on the ratio."""
     long, short = self_affine(0.7, 0.5, 4.0), self_affine(0.7, 100.0, 400.0)
     exact = force_variance(long.c2d, edges=long.edges, contact_radius=1.0, modulus=1.0)
-    assert springs.stretched_variance(long, 1.0) == pytest.approx(exact, rel=1e-5)
-    one, four = (springs.stretched_variance(short, ratio, lines=6000) for ratio in (1.0, 4.0))
+    assert limits.stretched_variance(long, 1.0) == pytest.approx(exact, rel=1e-5)
+    one, four = (limits.stretched_variance(short, ratio, lines=6000) for ratio in (1.0, 4.0))
     assert four == pytest.approx(one, rel=0.02)
-    nothing = springs.stretched_variance(self_affine(0.7, 1e-3, 2e-3), 4.0)
+    nothing = limits.stretched_variance(self_affine(0.7, 1e-3, 2e-3), 4.0)
     assert nothing == pytest.approx(4.0, rel=1e-4)
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from tests.cases.planted import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
 from tests.seeded import Times, catches
-from validation.cases.wheel import features as wheel_features
-from validation.cases.wheel.features import FLOOR, Spectrum
+from validation.cases.wheel import ensembles
+from validation.cases.wheel.ensembles import FLOOR, Spectrum
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.motion import natural_periods, simulate
 from validation.simulation.wheel_on_springs import simulate_ensemble
@@ -79,7 +79,7 @@ def test_a_part_is_the_beginning_of_the_motion_that_repeats_itself(linear):
 
 
 @catches("a wheel of half of its circumference").at(
-    "validation.scenes.wheel_track.OnTrack.circumference_points",
+    "validation.scenes.wheel_body.OnTrack.circumference_points",
     property(lambda one: round(np.pi * one.radius / one.spacing)),
 )
 def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
@@ -107,9 +107,9 @@ def test_rail_and_wheel_add_as_spectra():
     found = power(both).sum(axis=0) - power(rail).sum(axis=0) - power(of_wheel).sum(axis=0)
     assert abs(found.mean()) <= 4 * found.std() / math.sqrt(count)
     q = np.linspace(0.5 * BOTH.rail.q_min, 1.5 * BOTH.rail.q_max, 999)
-    total = wheel_features.roughness(BOTH)(q)
+    total = ensembles.roughness(BOTH)(q)
     np.testing.assert_array_equal(total, BOTH.rail.spectrum.c1d(q) + BOTH.wheel.spectrum.c1d(q))
-    assert wheel_features.roughness(SMALL)(q) == pytest.approx(SMALL.rail.spectrum.c1d(q), rel=ROUNDING)
+    assert ensembles.roughness(SMALL)(q) == pytest.approx(SMALL.rail.spectrum.c1d(q), rel=ROUNDING)
 
 
 heights_of = wheel_ensemble.WheelEnsemble.heights
@@ -193,8 +193,8 @@ def inverted(omega, *, eigenfrequency, mass, damping):
     return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
 
 
-@catches("omega / omega_0 for omega_0 / omega").at("validation.theory.wheel.acceleration_over_force", inverted)
-@catches("factor 2 pi lost over frequency").at("validation.theory.wheel.over_frequency", Times(1 / (2 * np.pi)))
+@catches("omega / omega_0 for omega_0 / omega").at("validation.theory.rolling.acceleration_over_force", inverted)
+@catches("factor 2 pi lost over frequency").at("validation.theory.rolling.over_frequency", Times(1 / (2 * np.pi)))
 def test_the_linear_contact_has_its_closed_form_wave_by_wave():
     """A steady record is one period of its track, so waves are lines. Leapfrog sees 2 sin(omega dt / 2) / dt for omega,
     by which the resonator is known to be off; where a wave is too weak for its rounding, to that."""
@@ -220,11 +220,11 @@ def test_the_floor_of_an_open_record_is_its_jump():
     wave near the end of the band, at 1 / 1.3 of where the floor begins, has 1 / (1 - 1 / 1.3)^2 = 19 shares."""
     ride = rides(count=40, groups=10, linear=True)
     spectrum = Spectrum.of(SMALL, [simulate_ensemble(ride)])
-    predicted = wheel_features.expected(spectrum)[FLOOR]
+    predicted = ensembles.expected(spectrum)[FLOOR]
     slopes = 3 * 3.4 / 1.4 * (SMALL.jump / (1.3 * SMALL.cutoff)) ** 2
     near = 19 * (SMALL.jump / SMALL.cutoff) ** 3.4
-    assert wheel_features.measured(spectrum)[FLOOR].value / predicted == pytest.approx(1, abs=slopes + near)
+    assert ensembles.measured(spectrum)[FLOOR].value / predicted == pytest.approx(1, abs=slopes + near)
     assert slopes + near < 0.02
     # and not that of Hann's window, which has no jump
     of_hann = Spectrum(**{**vars(spectrum), "plain": spectrum.hann})
-    assert wheel_features.measured(of_hann)[FLOOR].value < 0.01 * predicted
+    assert ensembles.measured(of_hann)[FLOOR].value < 0.01 * predicted

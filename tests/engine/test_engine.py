@@ -7,17 +7,20 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import mdr
 from tests.engine.toys import ENVIRONMENT, ROOT, computed, other_toy, same, toy
 from tests.seeded import catches
 from validation.engine import engine as ensemble
-from validation.engine import result_store, sources
-from validation.engine.engine import Engine
-from validation.engine.random_numbers import random_generator
+from validation.engine import sources
+from validation.engine.engine import Engine, identity
+from validation.engine.realisations import random_generator
+from validation.simulation.method import Resolution
 
 
 def test_results_come_in_order_and_once(problems, tmp_path):
@@ -37,10 +40,10 @@ def test_every_damaged_bit_is_seen(problems, tmp_path):
     (path,) = store.iterdir()
     contents = path.read_bytes()
     key = f"{toy.__module__}.{toy.__qualname__}({problems[0]!r}) {sources.version_behind(toy.__module__, problems[0])}"
-    assert same([result_store.load(path, key)], whole)
+    assert same([ensemble.load_result(path, key)], whole)
     for i in range(len(contents)):
         path.write_bytes(contents[:i] + bytes([contents[i] ^ (1 << i % 8)]) + contents[i + 1 :])
-        assert result_store.load(path, key) is None
+        assert ensemble.load_result(path, key) is None
 
 
 def sealed(archive):
@@ -49,7 +52,7 @@ def sealed(archive):
 
 def repacked(contents, change):
     """The same archive with other arrays in it, and a right seal."""
-    with np.load(io.BytesIO(contents[: -result_store.SEAL])) as arrays:
+    with np.load(io.BytesIO(contents[: -ensemble.SEAL])) as arrays:
         held = {name: arrays[name] for name in arrays.files}
     archive = io.BytesIO()
     np.savez(archive, **change(held))
@@ -64,8 +67,8 @@ def relabelled(contents, **changes):
     """As above, with another label."""
 
     def change(held):
-        label = json.loads(str(held[result_store.LABEL])) | changes
-        return held | {result_store.LABEL: np.array(json.dumps(label))}
+        label = json.loads(str(held[ensemble.LABEL])) | changes
+        return held | {ensemble.LABEL: np.array(json.dumps(label))}
 
     return repacked(contents, change)
 
@@ -79,13 +82,13 @@ FORGED = {
     "another shape": lambda whole: repacked(whole, lambda held: held | {"value": np.ones((2, 2))}),
     "another type": lambda whole: repacked(whole, lambda held: held | {"value": np.array(["a", "b", "c", "d"])}),
     "objects": lambda whole: repacked(whole, lambda held: held | {"value": np.array([{}, [], (), 1], dtype=object)}),
-    "no label": lambda whole: repacked(whole, without(result_store.LABEL)),
-    "a label that is a number": lambda whole: repacked(whole, lambda held: held | {result_store.LABEL: np.ones(1)}),
+    "no label": lambda whole: repacked(whole, without(ensemble.LABEL)),
+    "a label that is a number": lambda whole: repacked(whole, lambda held: held | {ensemble.LABEL: np.ones(1)}),
     "an older format": lambda whole: relabelled(whole, format=1),
     "another problem": lambda whole: relabelled(whole, key="another"),
     "no archive": lambda whole: sealed(b"text"),
     "a seal alone": lambda whole: sealed(b""),
-    "an archive of others": lambda whole: whole[: -result_store.SEAL],
+    "an archive of others": lambda whole: whole[: -ensemble.SEAL],
 }
 
 
@@ -112,15 +115,15 @@ def test_what_is_stored_comes_back_as_it_was(tmp_path):
         "count": np.array(3),
         "with / and .npy": np.array([np.nan, np.inf]),
     }
-    result_store.save(tmp_path / "x.npz", "key", outcome)
-    again = result_store.load(tmp_path / "x.npz", "key")
+    ensemble.save_result(tmp_path / "x.npz", "key", outcome)
+    again = ensemble.load_result(tmp_path / "x.npz", "key")
     assert again.keys() == outcome.keys()
     for name, array in outcome.items():
         np.testing.assert_array_equal(again[name], array)
         assert again[name].dtype == array.dtype
         assert again[name].flags.writeable
-    assert result_store.load(tmp_path / "x.npz", "another key") is None
-    assert result_store.load(tmp_path / "y.npz", "key") is None
+    assert ensemble.load_result(tmp_path / "x.npz", "another key") is None
+    assert ensemble.load_result(tmp_path / "y.npz", "key") is None
 
 
 @pytest.mark.parametrize("kind", ["link", "dangling", "pipe", "folder"])
@@ -234,3 +237,32 @@ def test_the_source_is_read_when_the_code_is():
     code = "from validation.engine import engine, sources; print(sources.version_of_numerics.cache_info().currsize)"
     run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, encoding="utf-8")
     assert run.stdout == "1\n", run.stderr
+
+
+@dataclass(frozen=True)
+class Several:
+    """A problem that holds what problems hold."""
+
+    spectra: tuple[mdr.SelfAffine, ...]
+    places: list[float]
+    named: dict[str, float]
+    hidden: float = field(default=0.0, repr=False)
+    later: float | None = field(default=None, metadata={"later": True})
+
+    def __repr__(self) -> str:
+        return "Several(...)"
+
+
+@catches("a key of what a problem prints").at("tests.engine.test_engine.identity", repr)
+def test_a_key_has_all_digits_whatever_prints():
+    """Else two problems would share a stored result."""
+    near = [mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=2.0, rms=rms) for rms in (1.0, 1.0 + 1e-12)]
+    assert repr(near[0]) == repr(near[1]) and identity(near[0]) != identity(near[1])
+    assert identity(near[0]) == "SelfAffine(hurst=0.7, q_min=1.0, q_max=2.0, rms=1.0)"
+    several = Several((near[1],), [0.1 + 0.2], {"x": 1 / 3})
+    assert identity(several) == (
+        "Several(spectra=(SelfAffine(hurst=0.7, q_min=1.0, q_max=2.0, rms=1.000000000001),), "
+        "places=[0.30000000000000004], named={'x': 0.3333333333333333})"
+    )
+    assert identity(replace(several, later=1.0)) == identity(several)[:-1] + ", later=1.0)"
+    assert identity(Resolution(size=3)) == repr(Resolution(size=3))

@@ -14,7 +14,7 @@ import pytest
 
 from tests.seeded import catches
 from validation.__main__ import main
-from validation.engine import result_store
+from validation.engine import engine as ensemble
 from validation.engine.files import ERRORS_OF_A_PATH, read_plain, write_output, write_whole
 
 
@@ -155,12 +155,13 @@ def test_a_link_is_not_read_as_a_plain_file(tmp_path):
 def test_a_stored_result_is_known_by_its_seal_alone(tmp_path):
     """Whatever reads the archive would not see it."""
     path = tmp_path / "it.npz"
-    result_store.save(path, "key", {"value": np.arange(3.0)})
+    ensemble.save_result(path, "key", {"value": np.arange(3.0)})
     whole = path.read_bytes()
     assert (
-        result_store.load(path, "key")["value"].tolist() == [0.0, 1.0, 2.0] and result_store.load(path, "other") is None
+        ensemble.load_result(path, "key")["value"].tolist() == [0.0, 1.0, 2.0]
+        and ensemble.load_result(path, "other") is None
     )
     path.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
-    assert result_store.load(path, "key") is None
-    result_store.forget({path: "key"})
+    assert ensemble.load_result(path, "key") is None
+    ensemble.forget_results({path: "key"})
     assert path.exists()

@@ -15,9 +15,9 @@ import pytest
 from tests.engine.toys import HANG, wait_until
 from validation.engine import engine as ensemble
 from validation.engine import workers as shared
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine
 from validation.engine.progress import Part
+from validation.engine.realisations import NotConvergedError
 from validation.engine.workers import AHEAD, Workers
 
 

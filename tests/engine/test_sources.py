@@ -39,8 +39,8 @@ def test_a_punch_rests_on_both_methods_and_on_no_page():
     assert not [name for name in behind if name.startswith(("validation.advice", "validation.cases"))]
     assert not [name for name in sources.modules() if ".report" in name]
     # problems go through the engine, and what draws their random numbers stands beside it
-    assert not {"validation.engine.engine", "validation.engine.progress", "validation.engine.result_store"} & behind
-    assert "validation.engine.random_numbers" in behind
+    assert not {"validation.engine.engine", "validation.engine.progress"} & behind
+    assert "validation.engine.realisations" in behind
 
 
 IMPORTS = ("import validation", "from validation import compare", "import importlib\nimportlib.import_module('math')")
@@ -70,7 +70,7 @@ def test_every_import_of_the_running_code_is_found():
     ("module", "old", "new", "changes"),
     [
         ("bem3d.solver", b"import", b"import sys, ", True),
-        ("validation.engine.random_numbers", b"return ", b"return 2 * ", True),
+        ("validation.engine.realisations", b"return ", b"return 2 * ", True),
         ("validation.analysis.spectra", b"def ", b"def other_", True),
         ("validation.analysis.spectra", b"def ", b"def  ", False),
         ("validation.cases.punch.bandwidth_study", b"def ", b"def other_", False),
@@ -89,9 +89,9 @@ def test_results_are_as_good_as_the_code_behind_them(edited, module, old, new, c
 
 def test_the_classes_of_a_problem_count(problems):
     """A scene may come from a module that the solve does not import."""
-    plain = version_behind("validation.theory.wheel", None)
-    assert version_behind("validation.theory.wheel", problems[0]) != plain
-    assert version_behind("validation.theory.wheel", {"key": (problems[0],)}) != plain
+    plain = version_behind("validation.theory.rolling", None)
+    assert version_behind("validation.theory.rolling", problems[0]) != plain
+    assert version_behind("validation.theory.rolling", {"key": (problems[0],)}) != plain
 
 
 @pytest.mark.slow

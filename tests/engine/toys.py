@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 
 ROOT = Path(__file__).parents[2]
 # workers of their own find this file as the tests do

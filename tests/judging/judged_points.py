@@ -5,14 +5,14 @@ from pkgutil import resolve_name
 from types import SimpleNamespace
 from unittest import mock
 
-from validation.analysis.verdict import Verdict
-from validation.judging.kinds import stiffness, surfaces
+from validation.analysis.evidence import Verdict
+from validation.judging.kinds import stiffness
 from validation.judging.kinds.judge import JUDGES
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 
 WITHIN, OUTSIDE, INCONCLUSIVE, NOT_SERVED, NO_RESULT = Verdict
-SWEEPS, SCALING = "sweeps:swept", "scaling:judged"
+SWEEPS, SCALING = "properties:swept", "properties:judged_scaling"
 
 
 def judged(kind, function, tolerance=0.1, by=None):
@@ -20,7 +20,7 @@ def judged(kind, function, tolerance=0.1, by=None):
     model = Called(offer(kind, "mine", {}, getattr(function, "function", function)))
     judge = resolve_name(f"validation.judging.kinds.{by or JUDGES[kind]}")
     clock = SimpleNamespace(perf_counter=itertools.count(0.0, 1e-9).__next__)
-    with mock.patch.object(stiffness, "time", clock), mock.patch.object(surfaces, "time", clock):
+    with mock.patch.object(stiffness, "time", clock):
         return [one.judged(tolerance) for one in judge(model)]
 
 

@@ -19,9 +19,9 @@ from validation import stiffness_model
 from validation.judging import replies as lent
 from validation.judging import worker as others
 from validation.judging import worker_main as serving
-from validation.judging.channel import Channel, ForeignBytesError
 from validation.judging.registry import Failed, offer
 from validation.judging.worker import Called, Visitor
+from validation.judging.worker_main import Channel, ForeignBytesError
 
 HEAD = """
 import os, signal, sys, threading, time

@@ -22,7 +22,7 @@ from tests.judging.judged_points import (
 )
 from tests.seeded import catches
 from validation.judging import replies
-from validation.judging.kinds import own, scaling, sweeps
+from validation.judging.kinds import own, properties
 from validation.judging.kinds.judge import Finding, ModelAnswer, points_of
 from validation.judging.kinds.own import ellipse, half_space, in_3d
 from validation.judging.kinds.references import Reference
@@ -97,26 +97,28 @@ def upside_down(line, radius, modulus, approach):
 
 
 WRONG = [
-    ("stiffness_model", lambda load: 1e3 * load**0.5, sweeps.HEAVY, [OUTSIDE] * 4),
-    ("stiffness_model", falls_below, sweeps.HEAVY, [NO_RESULT] * 4),
-    ("stiffness_model", lambda load: 1 / load, sweeps.LIGHT, [OUTSIDE] * 3),
-    ("stiffness_of_surface", lambda height, load: 2 * load, sweeps.FEW, [OUTSIDE] * 5),
-    ("force_spectrum", twice, sweeps.LONG, [OUTSIDE] * 3),
-    ("contact_filter", divides, sweeps.LONG, [NO_RESULT, WITHIN, WITHIN]),
-    ("contact_filter", lambda k_x, a_x: 1 + (k_x * a_x) ** 2, sweeps.SHORT, [OUTSIDE] * 3),
-    ("rolling_model", lambda line, approach: 0 * line + approach, sweeps.SMOOTH, [OUTSIDE] * 5),
-    ("rolling_model", springs, sweeps.SMOOTH, [OUTSIDE, WITHIN, WITHIN, WITHIN, WITHIN]),
-    ("rolling_model", upside_down, sweeps.LONG, [OUTSIDE] * 2),
-    ("contact_filter", lambda k_x: 1.05 + 0 * k_x, sweeps.SHORT, [OUTSIDE] * 3),
+    ("stiffness_model", lambda load: 1e3 * load**0.5, properties.HEAVY, [OUTSIDE] * 4),
+    ("stiffness_model", falls_below, properties.HEAVY, [NO_RESULT] * 4),
+    ("stiffness_model", lambda load: 1 / load, properties.LIGHT, [OUTSIDE] * 3),
+    ("stiffness_of_surface", lambda height, load: 2 * load, properties.FEW, [OUTSIDE] * 5),
+    ("force_spectrum", twice, properties.LONG, [OUTSIDE] * 3),
+    ("contact_filter", divides, properties.LONG, [NO_RESULT, WITHIN, WITHIN]),
+    ("contact_filter", lambda k_x, a_x: 1 + (k_x * a_x) ** 2, properties.SHORT, [OUTSIDE] * 3),
+    ("rolling_model", lambda line, approach: 0 * line + approach, properties.SMOOTH, [OUTSIDE] * 5),
+    ("rolling_model", springs, properties.SMOOTH, [OUTSIDE, WITHIN, WITHIN, WITHIN, WITHIN]),
+    ("rolling_model", upside_down, properties.LONG, [OUTSIDE] * 2),
+    ("contact_filter", lambda k_x: 1.05 + 0 * k_x, properties.SHORT, [OUTSIDE] * 3),
 ]
 
 
-STAYING = {kind: [one._replace(at=one.at[:1] * len(one.at)) for one in some] for kind, some in sweeps.SWEEPS.items()}
+STAYING = {
+    kind: [one._replace(at=one.at[:1] * len(one.at)) for one in some] for kind, some in properties.SWEEPS.items()
+}
 
 
-@catches("a sweep that stays where it begins", *WRONG[5]).at("validation.judging.kinds.sweeps.SWEEPS", STAYING)
-@catches("a track shorter than the contact", *WRONG[8]).at("validation.judging.kinds.sweeps.TRACK", 1)
-@catches("a bound for a closed form", *WRONG[-1]).at("validation.judging.kinds.sweeps.EXACT", None)
+@catches("a sweep that stays where it begins", *WRONG[5]).at("validation.judging.kinds.properties.SWEEPS", STAYING)
+@catches("a track shorter than the contact", *WRONG[8]).at("validation.judging.kinds.properties.TRACK", 1)
+@catches("a bound for a closed form", *WRONG[-1]).at("validation.judging.kinds.properties.ROUNDING", None)
 @pytest.mark.parametrize(("kind", "function", "quantity", "expected"), WRONG)
 def test_where_a_model_breaks_is_found(kind, function, quantity, expected):
     assert [p.verdict for p in of(judged(kind, function, by=SWEEPS), quantity)] == expected
@@ -175,12 +177,14 @@ UNSCALED = [
 ]
 
 
-ONE = scaling.Powers(1, 1, 1)
+ONE = properties.Powers(1, 1, 1)
 
 
-@catches("a rule of scaling by the tolerance of a user", *UNSCALED[0]).at("validation.judging.kinds.scaling.EXACT", 0.5)
+@catches("a rule of scaling by the tolerance of a user", *UNSCALED[0]).at(
+    "validation.judging.kinds.properties.EXACT", 0.5
+)
 @catches("heights that never change", *UNSCALED[6]).at(
-    "validation.judging.kinds.scaling.RULES", {**scaling.RULES, "scaling with the height": ONE}
+    "validation.judging.kinds.properties.RULES", {**properties.RULES, "scaling with the height": ONE}
 )
 @pytest.mark.parametrize(("kind", "function", "what", "expected"), UNSCALED)
 def test_what_is_right_in_some_units_alone_is_found(kind, function, what, expected):
@@ -195,7 +199,7 @@ def test_a_warning_stands_beside_the_number():
             warnings.warn("too\nheavy", stacklevel=1)
         return flat(load, side, modulus)
 
-    reasons = [p.reason for p in of(judged("stiffness_model", warns, by=SWEEPS), sweeps.HEAVY)]
+    reasons = [p.reason for p in of(judged("stiffness_model", warns, by=SWEEPS), properties.HEAVY)]
     assert reasons == ["", *["it warned: too heavy"] * 3]
 
 
@@ -242,7 +246,7 @@ def test_errors_are_medians_of_the_quantity_of_their_kind():
 
 
 @catches("a rule of scaling by ten times the interval of its draws").at(
-    "validation.judging.kinds.scaling.OF_SAMPLE", 20.0
+    "validation.judging.kinds.properties.OF_SAMPLE", 20.0
 )
 def test_draws_that_scale_wrong_by_more_than_two_intervals_are_found():
     """Each draw has its own power of E*, whose mean is off one by 4 %; the interval of eight draws is some 1.5 %."""

@@ -11,7 +11,7 @@ import pytest
 import mdr
 from tests.judging.judged_points import NO_RESULT, OUTSIDE, WITHIN, judged, of, verdicts
 from tests.seeded import catches
-from validation.judging.kinds import filters, laws, profiles, rolling
+from validation.judging.kinds import laws, profiles, rolling
 from validation.judging.kinds.from_report import Report
 from validation.judging.kinds.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
 from validation.judging.registry import offer
@@ -66,7 +66,7 @@ def place_of(where):
 
 @pytest.mark.parametrize("name", SHOWN_AS)
 def test_a_filter_of_the_suite_is_off_by_what_the_report_shows(name):
-    points = of(judged("contact_filter", SHOWN_AS[name], ONE_DECIBEL), filters.FILTER)
+    points = of(judged("contact_filter", SHOWN_AS[name], ONE_DECIBEL), rolling.FILTER)
     mine = {(*place_of(p.where), p.where["wavelength [mm]"]): p for p in points}
     rows = [row for row in shown("across", OVER, model=name) if math.isfinite(row["value"])]
     assert len(rows) > 200
@@ -86,16 +86,16 @@ def test_a_filter_of_the_suite_is_off_by_what_the_report_shows(name):
 
 def test_linear_theory_over_the_ellipse_is_a_right_filter():
     right = judged("contact_filter", ellipse)
-    assert verdicts(right, filters.FILTER) == {WITHIN} == verdicts(right, filters.LONG)
+    assert verdicts(right, rolling.FILTER) == {WITHIN} == verdicts(right, rolling.LONG)
 
 
 def test_a_closed_form_over_the_ground_is_a_filter_of_the_line_that_knows_alpha():
     points = judged("contact_filter", closed_form)
     full = {tuple(p.where.values()): p for p in judged("contact_filter", remington)}
-    within = [p for p in of(points, filters.FILTER) if p.where["alpha"] != 0.0]
+    within = [p for p in of(points, rolling.FILTER) if p.where["alpha"] != 0.0]
     assert len(within) > 100 and all(p.where["alpha"] != "isotropic" for p in within)
     assert all(p.value == pytest.approx(full[tuple(p.where.values())].value, abs=2e-3) for p in within)
-    ridges = of(points, filters.FILTER, alpha=0.0)
+    ridges = of(points, rolling.FILTER, alpha=0.0)
     assert {p.verdict for p in ridges} == {NO_RESULT} and "alpha" in ridges[0].reason
 
 
@@ -217,9 +217,9 @@ def test_a_line_trace_keeps_the_height_and_half_of_the_mean_square_gradient(few_
 
 
 WRONG = [
-    ("contact_filter", lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_x, a_y) ** 2, filters.FILTER),
-    ("contact_filter", lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_y, a_x), filters.FILTER),
-    ("contact_filter", lambda k_x, a_x: 2 * line(k_x, a_x), filters.LONG),
+    ("contact_filter", lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_x, a_y) ** 2, rolling.FILTER),
+    ("contact_filter", lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_y, a_x), rolling.FILTER),
+    ("contact_filter", lambda k_x, a_x: 2 * line(k_x, a_x), rolling.LONG),
     ("rolling_model", upside_down, "approach, position by position"),
     ("profile_spectrum", lambda q, roughness: 2 * geike(q, roughness), "rms height"),
     ("profile_spectrum", lambda q, roughness: geike(q, roughness) ** 2 * 1e17, "linear in C_2D"),
@@ -231,7 +231,7 @@ WRONG = [
 @pytest.mark.parametrize(("kind", "wrong", "quantity"), WRONG)
 def test_a_wrong_model_differs(kind, wrong, quantity, few_profiles):
     found = verdicts(judged(kind, wrong), quantity)
-    assert OUTSIDE in found and (found == {OUTSIDE} or quantity == filters.FILTER)
+    assert OUTSIDE in found and (found == {OUTSIDE} or quantity == rolling.FILTER)
 
 
 @pytest.mark.parametrize("factor", [0.0, -1.0])

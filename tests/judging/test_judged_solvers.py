@@ -171,7 +171,7 @@ SOFTER = {
 
 
 @catches("the approach of an answer for the one that is prescribed, in causes", fault="heights from their mean").at(
-    "validation.judging.solvers.factors._shift", lambda contact: 0.0
+    "validation.judging.solvers.diagnosis._shift", lambda contact: 0.0
 )
 @pytest.mark.parametrize("fault", ["E for E*", "a factor 2 in the operator", "half a cell", "tension", *SOFTER])
 def test_a_fault_is_caught_by_approach_too(fault):

@@ -10,7 +10,7 @@ from tests.judging import judged_points
 from tests.judging.judged_points import INCONCLUSIVE, NO_RESULT, NOT_SERVED, OUTSIDE, WITHIN, of, verdicts
 from tests.seeded import catches
 from validation.judging.judgement import ranges_of
-from validation.judging.kinds import stiffness, surfaces
+from validation.judging.kinds import stiffness
 from validation.judging.kinds.judge import ModelAnswer
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.stiffness import JudgedPunch
@@ -211,12 +211,12 @@ def summits(monkeypatch):
             {"H": 0.7, "surface": f"surface {i}", "Fbar": force}, value, 0.0, 0.01, quantity="stiffness of a surface"
         )
         for i in range(6)
-        for height in [stiffness.SIDE * surfaces.roughness(0.7).surface(256, i)]
+        for height in [stiffness.SIDE * stiffness.roughness(0.7).surface(256, i)]
         for force in FORCES
         for load in [force * stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2]
         for value in [by_the_summit(height, stiffness.SIDE / 256, 1.0, load / stiffness.MODULUS) / stiffness.SIDE]
     ]
-    monkeypatch.setattr(surfaces, "reference_rows", lambda quantity: rows)
+    monkeypatch.setattr(stiffness, "reference_rows", lambda quantity: rows)
 
 
 def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits):
@@ -228,13 +228,13 @@ def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits)
     stiffer = judged_surfaces(
         lambda height, spacing, modulus, load: 1.3 * by_the_summit(height, spacing, modulus, load)
     )
-    assert verdicts(stiffer, surfaces.OF_SURFACE) == verdicts(stiffer, MEAN) == {OUTSIDE}
+    assert verdicts(stiffer, stiffness.OF_SURFACE) == verdicts(stiffer, MEAN) == {OUTSIDE}
     assert verdicts(stiffer, DEVIATION) == {WITHIN}
 
 
 def test_a_law_without_the_surface_has_no_deviation(summits):
     mean = {
-        force: np.mean([row.value for row in surfaces.reference_rows("") if row.where["Fbar"] == force])
+        force: np.mean([row.value for row in stiffness.reference_rows("") if row.where["Fbar"] == force])
         for force in FORCES
     }
 
@@ -249,11 +249,11 @@ def test_a_law_without_the_surface_has_no_deviation(summits):
 
 def test_a_surface_turned_upside_down_is_another_one(summits):
     points = judged_surfaces(lambda height, spacing, modulus, load: by_the_summit(-height, spacing, modulus, load))
-    assert OUTSIDE in verdicts(points, surfaces.OF_SURFACE)
+    assert OUTSIDE in verdicts(points, stiffness.OF_SURFACE)
 
 
 def test_surfaces_that_there_is_no_time_for_are_left_open(summits, monkeypatch):
-    monkeypatch.setattr(surfaces, "SECONDS", 0.0)
+    monkeypatch.setattr(stiffness, "SECONDS", 0.0)
     points = judged_surfaces(by_the_summit)
-    reasons = [p.reason for p in points if p.quantity == surfaces.OF_SURFACE and p.verdict == INCONCLUSIVE]
+    reasons = [p.reason for p in points if p.quantity == stiffness.OF_SURFACE and p.verdict == INCONCLUSIVE]
     assert reasons == ["not asked: 0 s are over"] * 12

@@ -21,8 +21,7 @@ from validation.advice.calibration_scenes import OTHER_SEED, Answers, Calibratio
 from validation.advice.models import boundary_elements_pressed
 from validation.engine.engine import Engine
 from validation.judging import own_models, source_files
-from validation.judging.own_kinds import result_of
-from validation.judging.own_models import OwnPart, calibrated, measure_own, models_in
+from validation.judging.own_models import OwnPart, calibrated, measure_own, models_in, result_of
 from validation.railway.models import rail
 from validation.railway.problems.rail_models import ContactFilter
 from validation.simulation.indentation import height_of
@@ -104,7 +103,7 @@ def test_a_calibrated_function_is_chosen_like_any_other():
         found = validation.compare(ROUGH, models=[series, "fit"])
     chosen = found.models["interface in series"]
     assert found.model == "interface in series" and found.met and 0.001 < chosen.error < 0.1
-    assert found.value[0] == series(ROUGH.load, ROUGH.size, ROUGH.modulus, ROUGH.ground.spectrum)
+    assert found.value == series(ROUGH.load, ROUGH.size, ROUGH.modulus, ROUGH.ground.spectrum)
     assert found.models["springs"].status == "not asked"
 
 
@@ -342,7 +341,7 @@ def as_reference(name, a3):
 
 
 @catches("a filter of somebody's own that is the reference").at(
-    ("validation.judging.own_kinds.filter_of", "validation.judging.own_models.filter_of"), as_reference
+    ("validation.judging.own_models.filter_of", "validation.judging.own_models.filter_of"), as_reference
 )
 def test_a_filter_of_a_rail_claims_what_the_same_one_of_the_package_does():
     @validation.contact_filter("sinc")

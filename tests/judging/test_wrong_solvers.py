@@ -16,7 +16,7 @@ from validation.judging.registry import KINDS, Offered
 from validation.judging.solvers import checks, diagnosis
 from validation.judging.solvers.causes import JudgedContact, causes
 from validation.judging.solvers.checks import findings
-from validation.judging.solvers.factors import numbered
+from validation.judging.solvers.diagnosis import numbered
 from validation.judging.solvers.properties import JudgedSolver
 from validation.judging.worker import Called
 

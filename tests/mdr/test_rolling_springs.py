@@ -138,7 +138,7 @@ def test_a_light_wheel_over_a_spike(spike):
 
 
 @catches("a spike that nobody rolls over").at(
-    "mdr.candidate_springs.Near.beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)
+    "mdr.spring_track.Near.beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)
 )
 def test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness():
     """Four thousand positions, and no more springs looked at than a few times those of a track without it."""
@@ -230,7 +230,7 @@ def spikes_on_a_plane():
 def test_springs_that_stand_out_are_added_as_neighbours_are(rolled, monkeypatch):
     """The same bits as by a loop over all neighbours, of which it looks at more."""
     one = mdr.roll(**rolled)
-    monkeypatch.setattr("mdr.candidate_springs.MAX_WORK_SHARE", 0.0)
+    monkeypatch.setattr("mdr.spring_track.MAX_WORK_SHARE", 0.0)
     other = mdr.roll(**rolled)
     for numbers in ("force", "approach", "stiffness"):
         assert np.array_equal(getattr(one, numbers), getattr(other, numbers))

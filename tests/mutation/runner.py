@@ -37,17 +37,17 @@ SETTINGS = {"HYPOTHESIS_PROFILE": "mutation", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": 
 QUIET = ("-qq", "-x", "--tb=no", "-p", "no:cacheprovider")
 METHODS = ("mdr/*.py", "bem3d/*.py", "validation/theory/closed_forms.py")
 VERDICTS = (
-    *("validation/analysis/series.py", "validation/analysis/claims.py", "validation/analysis/study.py"),
+    *("validation/analysis/series.py", "validation/analysis/claims.py", "validation/analysis/case.py"),
     *("validation/analysis/ranges.py", "validation/analysis/claim_text.py", "validation/analysis/number_text.py"),
     *("validation/analysis/statistics.py", "validation/analysis/evidence.py", "validation/analysis/spectra.py"),
-    *("validation/simulation/limit_sweeps.py", "validation/simulation/probing.py", "validation/engine/engine.py"),
-    *("validation/benchmarks/work_precision/errors.py", "validation/benchmarks/work_precision/pareto.py"),
+    *("validation/simulation/limits.py", "validation/engine/engine.py"),
+    *("validation/benchmarks/work_precision/pareto.py", "validation/benchmarks/work_precision/pareto.py"),
     "validation/advice/hierarchy.py",
 )
 CLAIMS = (
-    *("validation/report/answers/*.py", "validation/advice/calibrat*.py", "validation/advice/contact_force.py"),
+    *("validation/report/answers/*.py", "validation/advice/calibrat*.py", "validation/advice/sound_power.py"),
     *("validation/advice/exported.py", "validation/advice/table.py"),
-    *("validation/railway/scenes/isotropic_line.py", "validation/analysis/sound.py"),
+    *("validation/railway/scenes/isotropic_line.py", "validation/analysis/spectra.py"),
     *("validation/analysis/statistics.py", "validation/railway/problems/rail_*.py"),
 )
 """What claims rest on: grids of Fig. 14.1, calibrated errors, rails, and what is printed of all of them."""

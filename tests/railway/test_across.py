@@ -3,12 +3,14 @@
 import math
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy import special
 
 import bem3d
+import validation
 from tests.seeded import catches
 from validation.analysis.evidence import number_with, numbers_with
 from validation.analysis.series import numbers_of
@@ -23,6 +25,7 @@ from validation.railway.problems.rail_strip import line_of, strip_bands
 from validation.report.figures import drawing
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
 
+FOLDER = Path(validation.__file__).parent
 WHEEL = RailWheel(50, 360)
 """The contact is wider than long: filters differ the most."""
 A_X, A_Y = scene_of(WHEEL).contact.semi_axes
@@ -238,24 +241,62 @@ def test_the_nearest_alpha_and_factor_are_those_by_which_the_reference_was_made(
     assert np.allclose(across.a3_in_assessed_bands(scene, BED, 0.5, keep, larger), wider(1.3))
 
 
-@catches("forces that are not A-weighted").at(
-    "validation.railway.cases.filters.a_weighting", lambda frequency: 0 * frequency
+G_3 = FOLDER / "railway" / "tables" / "cnossos_g3_2021.csv"
+
+
+@catches("sound power of the track alone").at(
+    "validation.railway.theory.sound_power.SoundTransfer.of_both",
+    property(lambda transfer: transfer.of_track),
 )
-def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
-    """0.5 dB louder in all bands that strips have; IEC 61672 by its formula."""
+@catches("sound power that is not A-weighted").at(
+    "validation.railway.theory.sound_power.weighting", lambda: np.zeros(24)
+)
+def test_sound_power_is_beside_that_by_the_filter_of_boundary_elements():
+    """0.5 dB louder in bands that strips have; columns M/M and 680 mm, nearest to 360; IEC 61672 by its formula."""
     result = rolled(0.5)
     key = result.case.keys[0]
     scene = result.case.scene(key)
     bands, a3 = scene.levels.bands, filters.linear_filter(scene, LINEAR, "ridges")
     louder = 0.5 * np.isin(bands.numbers, strip_bands(scene).numbers)
+    rows = [line.split(",") for line in G_3.read_text(encoding="utf-8").splitlines()[2:]]
+    table = {name: np.array(column, dtype=float) for name, *column in zip(*rows, strict=True)}
+    f = table["frequency [Hz]"]
+    gain = 12194**2 * f**4 / ((f**2 + 20.6**2) * (f**2 + 12194**2))
+    gain /= np.sqrt((f**2 + 107.7**2) * (f**2 + 737.9**2))
+    weight = gain**2 * (10 ** (table["M/M"] / 10) + 10 ** (table["wheel 680"] / 10))
     (linear,) = (series for series in across._weighted(result, key) if series.model == LINEAR)
-    for speed, interval in zip((80, 200), linear.values, strict=True):
-        f = speed / 3.6 / bands.wavelengths
-        gain = 12194**2 * f**4 / ((f**2 + 20.6**2) * (f**2 + 12194**2))
-        gain /= np.sqrt((f**2 + 107.7**2) * (f**2 + 737.9**2))
-        powers = gain**2 * 10 ** ((np.array(scene.levels.levels) + a3) / 10)
-        assert interval.value == pytest.approx(10 * np.log10(powers.sum() / (powers @ 10 ** (louder / 10))), abs=2e-3)
+    assert tuple(linear.at) == (60, 80, 120, 160, 250)
+    for speed, interval in zip(linear.at, linear.values, strict=True):
+        sums = []
+        for filtered in (a3, a3 + louder):
+            squares = 10 ** ((np.array(scene.levels.levels) + filtered) / 10)
+            at = np.log(speed / 3.6 / f)
+            sums.append(weight @ np.interp(at, np.log(bands.nominal[::-1]), squares[::-1]))
+        assert interval.value == pytest.approx(10 * np.log10(sums[0] / sums[1]), abs=2e-3)
         assert interval.half_width > 0
+
+
+def test_borders_of_sound_power_are_where_one_line_passes_the_tolerance():
+    """By bisection of the sum at 80 km/h, with boundary elements as linear theory."""
+    scene, way = scene_of(WHEEL), across.AT_SPEEDS[80.0]
+    line = filters.linear_filter(scene, LINEAR_ON_LINE, "ridges")
+
+    def off(alpha):
+        (over,) = filters.over_in_decibel_a(scene, line, filters.linear_filter(scene, LINEAR, alpha), (80.0,))
+        return over
+
+    low, high = 0.1, 8.0
+    while high - low > 1e-3:
+        middle = (low + high) / 2
+        low, high = (middle, high) if off(middle) < 1.0 else (low, middle)
+    (border,) = (
+        series
+        for series in across._of_wheel(rolled(0.0), WHEEL)
+        if (series.quantity, series.model) == (across.BORDER, way)
+    )
+    assert border.values[0].value == pytest.approx(low, rel=0.01)
+    (table,) = across_study._borders(rolled(0.0))
+    assert table.columns["within [dB]"] == [1.0, 2.0] and set(table.columns) >= {"worst band", "60 km/h", "250 km/h"}
 
 
 roll_one_way = rail_across._roll

@@ -14,9 +14,9 @@ from validation.advice.exported import to_json
 from validation.advice.summary import summary
 from validation.analysis.spectra import NominalBands
 from validation.railway.problems.rail_models import rail_quantity, reason_of, what_would_state_the_ground
-from validation.railway.scenes import line_columns
-from validation.railway.scenes.line_columns import along_the_track
+from validation.railway.scenes import measured_lines
 from validation.railway.scenes.line_edits import edited
+from validation.railway.scenes.measured_lines import along_the_track
 from validation.scenes import table_files
 from validation.scenes.load import load_scene
 from validation.scenes.measured_heights import MeasuredHeights
@@ -77,7 +77,7 @@ def lines_of(*values, header="", positions=None):
     return along_the_track(in_memory(columns(header, *values)), metre=1e-6, spacing=1e-3, positions=positions)
 
 
-positions_of = line_columns._positions_of
+positions_of = measured_lines._positions_of
 
 
 def positions_without_the_last(numbers, given, rest, dead):
@@ -86,7 +86,7 @@ def positions_without_the_last(numbers, given, rest, dead):
 
 
 @catches("positions of the first lines for those that are left").at(
-    "validation.railway.scenes.line_columns._positions_of", positions_without_the_last
+    "validation.railway.scenes.measured_lines._positions_of", positions_without_the_last
 )
 def test_positions_of_dead_lines_go_with_them():
     found = lines_of(LINES[0], np.full(POINTS, 3.25), LINES[1], positions=[-0.01, 0.0, 0.01])
@@ -94,7 +94,7 @@ def test_positions_of_dead_lines_go_with_them():
 
 
 @catches("noise of a sensor taken for roughness").at(
-    "validation.railway.scenes.line_columns.noise_among", lambda lines: []
+    "validation.railway.scenes.measured_lines.noise_among", lambda lines: []
 )
 def test_noise_beside_rough_lines_is_no_line():
     found = lines_of(LINES[0], DEAD["noise"][0], LINES[1], positions=[-0.01, 0.0, 0.01])
@@ -102,14 +102,14 @@ def test_noise_beside_rough_lines_is_no_line():
 
 
 @catches("a row of positions read as a point").at(
-    "validation.railway.scenes.line_columns._without_first_row", lambda numbers, given: (numbers, ())
+    "validation.railway.scenes.measured_lines._without_first_row", lambda numbers, given: (numbers, ())
 )
 def test_positions_in_a_first_row_are_no_point():
     found = lines_of(*np.concatenate([[[-10.0], [-5.0], [0.0]], LINES], axis=1), positions=[-0.01, -0.005, 0.0])
     assert found.height == pytest.approx(1e-6 * LINES.T)
 
 
-@catches("times taken for places").at("validation.railway.scenes.line_columns.EPOCH", (0.0, 0.0))
+@catches("times taken for places").at("validation.railway.scenes.measured_lines.EPOCH", (0.0, 0.0))
 def test_seconds_since_1970_are_no_places():
     assert any("has time stamps" in note for note in lines_of(1714730400000 + AT, Z).notes)
 

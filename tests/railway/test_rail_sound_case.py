@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.seeded import catches
-from validation.railway.cases import filters
+from validation.analysis import spectra
 from validation.railway.cases.rail_sound import RailSound, RailSoundResult, shipped_rail
 from validation.railway.cases.rail_sound_study import IN_BANDS, STUDY
 from validation.railway.problems.rail_sound import GEIKE
@@ -27,7 +27,7 @@ def result(**of_model):
     return RailSoundResult(CASE, {(model, cells): signals[model] for model in CASE.sounding for cells in CASE.cells})
 
 
-REAL_WEIGHTING = filters.a_weighting
+REAL_WEIGHTING = spectra.a_weighting
 
 
 @catches("a weighting of amplitudes taken twice", frequency=100, weight=-19.1).at(
@@ -69,3 +69,11 @@ def test_sounds_have_one_full_scale_that_holds_them_all():
     largest = max(np.abs(found.table("samples")[name]).max() for name in found.table("samples").columns)
     assert found.sounds.full_scale >= largest
     assert [sound.name for sound in found.sounds.tracks] == ["bem", "linear", "springs", "geike"]
+
+
+def test_a_weight_of_the_force_is_in_the_file_alone():
+    """A force has another weight than sound power: no text compares A-weighted forces."""
+    found = result(**{GEIKE: 2 * result().signal(BEM)})
+    texts = [sound.says for sound in STUDY.evidence(found).sounds.tracks] + list(found.sounds_table().columns)
+    assert not any("dB(A)" in text or "A-weighted" in text or "over" in text for text in texts)
+    assert found.former_levels(GEIKE)["A-weighted over boundary elements [dB]"] == pytest.approx(6.02)

@@ -12,8 +12,7 @@ from tests.report.remade import sections
 from tests.report.test_printed import evidence_with, html_of, number
 from tests.seeded import catches
 from validation.analysis.claims import Claim
-from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
-from validation.analysis.verdict import OF_NUMBERS
+from validation.analysis.evidence import OF_NUMBERS, ClaimStatus, JudgedClaim, Role, Verdict, Whose
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, REMARKS, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.commands.run_cases import lines_of
@@ -89,11 +88,11 @@ def test_a_status_has_its_word_and_sign(verdicts, changes, words):
     text = summary(section_of(some))
     assert badges(text) == 2 * [(some.status.replace(" ", "-"), words)]
     assert text.count("It is 1 to 9.") == 1
-    assert lines_of(section_of(some))[1].endswith(f"{some.status}: It is so. It is 1 to 9.")
+    assert lines_of(section_of(some), verbose=True)[1].endswith(f"{some.status}: It is so. It is 1 to 9.")
 
 
 def test_the_front_page_lists_statements_of_the_book_and_of_the_field_alone():
-    whose = [Whose.FINDING, Whose.BOOK, Whose.FIELD, Whose.BOOK]
+    whose = [Whose.HYPOTHESIS, Whose.BOOK, Whose.LITERATURE, Whose.BOOK]
     some = [
         replace(claim([AGREE]), claim=f"Claim {i}.", whose=one, numbers=numbers_with([AGREE], model=f"m{i}"))
         for i, one in enumerate(whose)
@@ -118,7 +117,7 @@ def test_every_status_is_known_without_colour():
 
 def test_each_claim_of_a_case_has_a_row_of_its_own():
     other = replace(claim([DIFFER]), claim="It is otherwise.", numbers=numbers_with([DIFFER], model="m"))
-    section = section_of(replace(claim([AGREE]), whose=Whose.BOOK), replace(other, whose=Whose.FIELD))
+    section = section_of(replace(claim([AGREE]), whose=Whose.BOOK), replace(other, whose=Whose.LITERATURE))
     assert [name for name, _ in badges(listed(html_of(section)))] == ["supported", "refuted"]
     assert total_of([section, section]) == "claims: supported 2, refuted 2"
     assert "Claims: supported 1, refuted 1," in html_of(section)
@@ -127,6 +126,7 @@ def test_each_claim_of_a_case_has_a_row_of_its_own():
 def test_results_hold_every_claim():
     (row,) = case_results(section_of(claim([AGREE, DIFFER], **WITHIN)))["claims"]
     assert (row["status"], row["whose"], row["limits"]) == ("holds within limits", "findings of ours", "below 1")
+    assert row["stated_by"] == "our hypothesis" and Whose(row["whose"]) is Whose.HYPOTHESIS
     assert row["verdicts"] == {"agree": 1, "differ": 1, "undecided": 0}
     assert (row["numbers"], row["inside"]) == (["y0", "y1"], ["y0"])
 

@@ -28,8 +28,8 @@ from validation.cases.stability import wheel_stability
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
-from validation.cases.wheel.features import QUANTITIES
-from validation.engine import result_store
+from validation.cases.wheel.ensembles import QUANTITIES
+from validation.engine import engine as ensemble
 from validation.railway.cases.across import Across
 from validation.railway.cases.rail_dynamic import RailDynamic
 from validation.railway.cases.rail_sound import RailSound, shipped_rail
@@ -95,7 +95,7 @@ SMALL = {
     "across": Across(across=("isotropic ground",), cells=(4, 5)),
     "rough_rail": RoughRail(offsets=(20.0,), strips=3, cells=(4, 5)),
     "rail_dynamic": RailDynamic(
-        offsets=(0.0,), others=(), longest=0.05, periods=2, rounds=(0, 1), cells=5, coarse=4, strips=3, compared=2
+        offsets=(0.0,), longest=0.05, periods=2, rounds=(0, 1), cells=5, coarse=4, strips=3, compared=2
     ),
     "rail_sound": RailSound(rail=shipped_rail(), seconds=0.02, repeats=2, cells=(4, 5), parts=2, blocks=5),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
@@ -235,10 +235,10 @@ def lose(place):
     """A stored result becomes that of a solve which did not converge: a flag, and no number."""
     with np.load(place) as stored_there:
         outcome = dict(stored_there)
-    key = json.loads(str(outcome.pop(result_store.LABEL)))["key"]
+    key = json.loads(str(outcome.pop(ensemble.LABEL)))["key"]
     floats = {name: values for name, values in outcome.items() if values.dtype.kind in "fc"}
     lost = {name: np.full_like(values, np.nan) for name, values in floats.items()}
-    result_store.save(place, key, {**outcome, **lost, "failed": np.ones_like(outcome["failed"])})
+    ensemble.save_result(place, key, {**outcome, **lost, "failed": np.ones_like(outcome["failed"])})
 
 
 def text_of(folder):

@@ -7,10 +7,10 @@ from itertools import product
 import numpy as np
 import pytest
 
+from validation.analysis.case import Settings
 from validation.analysis.chart import STYLES, Chart, Curve, Panel, by_model
 from validation.analysis.evidence import Evidence, Table
 from validation.analysis.series import ENDS
-from validation.analysis.study import Settings
 from validation.report.drawing import FORMS, draw
 from validation.report.style import styles_of
 

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from validation.scenes.printable import never_fatal
+from validation.analysis.escapes import never_fatal
 
 SAID = "± 1.2 µm × 2 dB — k̄ ≥ 0 é ☃"
 

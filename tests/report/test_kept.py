@@ -130,7 +130,7 @@ def test_the_code_behind_a_case_is_what_makes_its_numbers():
         (quick, full), (more, same) = (
             [code_behind.version_of_numbers(one, profile) for profile in ("quick", "full")] for one in (case, other)
         )
-    assert set(roots) == {(("validation.analysis.study", "validation.cases.wheel.distance"), code_behind.WORDS)}
+    assert set(roots) == {(("validation.analysis.case", "validation.cases.wheel.distance"), code_behind.WORDS)}
     assert more != quick and same == full
 
 

@@ -9,6 +9,7 @@ import pytest
 from tests.seeded import catches
 from validation.analysis.contents import as_csv, as_written
 from validation.analysis.evidence import (
+    OF_NUMBERS,
     Evidence,
     Number,
     Role,
@@ -17,7 +18,6 @@ from validation.analysis.evidence import (
     VerdictCell,
 )
 from validation.analysis.number_text import plus_minus
-from validation.analysis.verdict import OF_NUMBERS
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
 from validation.report.section import Section, case_results, numbers_table

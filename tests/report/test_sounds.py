@@ -10,7 +10,7 @@ import scipy.io.wavfile
 from tests.seeded import catches
 from validation import __main__ as command
 from validation.analysis.evidence import Evidence, Table
-from validation.analysis.sound import Sound, Sounds, common_full_scale
+from validation.analysis.spectra import Sound, Sounds, common_full_scale
 from validation.report import sounds
 
 RATE, TONE = 24000, 1000.0

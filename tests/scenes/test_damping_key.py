@@ -15,7 +15,7 @@ from validation.scenes.bundled import path_of
 from validation.scenes.description import describe
 from validation.scenes.load import load_scene, load_scene_with_track
 from validation.scenes.reader import VALUES
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 
 RAIL, STILL = (path_of(name).read_text(encoding="utf-8") for name in ("rail", "rolling_wheel"))
 MASS = '# mass = "500 kg"   # of a wheel that moves'

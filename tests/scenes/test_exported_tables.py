@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 
 import numpy as np
 import pytest
@@ -11,15 +12,12 @@ from hypothesis import strategies as st
 from tests.railway.test_rail_files import CURVE, LEVELS, loaded
 from tests.seeded import catches
 from validation.railway.scenes import level_files
-from validation.railway.scenes.line_columns import along_the_track
-from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.measured_lines import MeasuredLines, along_the_track
 from validation.scenes import text_dialect
-from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
 from validation.scenes.measured_heights import edited_lines
-from validation.scenes.number_table import TableForm, table_of_text
-from validation.scenes.positions import places_of
-from validation.scenes.text_dialect import WRITTEN, Dialect
+from validation.scenes.number_table import TableForm, faults_of_places, places_of, runs_one_way, table_of_text
+from validation.scenes.text_dialect import WRITTEN, Column, Dialect, column_of, columns_of, unit_of_all
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
 """Nominal wavelengths [mm] and levels [dB]."""
@@ -558,3 +556,42 @@ def test_a_comma_is_the_decimal_sign_by_header_or_digits_or_is_asked_for(above, 
             text_dialect._has_decimal_commas(above, below, points)
     else:
         assert text_dialect._has_decimal_commas(above, below, points) == commas
+
+
+EVEN = np.arange(20.0)
+
+
+@pytest.mark.parametrize(
+    ("at", "value", "fault"),
+    [
+        (7, 5.5, "runs back from 6 to 5.5 in row 8"),
+        (7, 6.0, "has 6 and 6 behind another in row 8"),
+        (slice(7, None), EVEN[7:] + 3, "jumps from 6 to 10 in row 8"),
+        (slice(None), EVEN, ""),
+        (7, np.nan, ""),
+        (slice(0, 8), EVEN[:8] ** 2, ""),
+    ],
+)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_fault_of_a_column_that_runs_evenly_for_the_most_part(at, value, fault, sign):
+    """Up or down. Of a column that is off in more than a fifth of its steps, or without a number, nothing is said."""
+    values = EVEN.copy()
+    values[at] = value
+    words = re.sub(r"(from|to|has|and) (?=[1-9])", r"\1 -" if sign < 0 else r"\1 ", fault)
+    said = faults_of_places(sign * values)
+    assert said.startswith(words) and bool(said) == bool(fault)
+
+
+def test_places_run_evenly_with_gaps_or_not_at_all():
+    gaps = np.delete(EVEN, [4, 5])
+    places = places_of(gaps)
+    assert (places.step, places.gaps, places.before_gap) == (1.0, 2, 3.0)
+    for values in (np.append(EVEN, np.nan), EVEN**1.5, EVEN[:7], np.append(EVEN, 18.0)):
+        assert places_of(values) is None
+
+
+def test_a_column_runs_one_way_from_sixteen_rows_on():
+    rounded = np.repeat(EVEN[:8], 2)
+    assert runs_one_way(rounded) and runs_one_way(-rounded)
+    assert not runs_one_way(rounded[:15]) and not runs_one_way(0 * rounded)
+    assert not runs_one_way(np.append(rounded, 0.0))

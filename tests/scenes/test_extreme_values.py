@@ -9,7 +9,7 @@ import tomllib
 import pytest
 
 from validation.advice.compare import SceneProblem
-from validation.advice.quantities import quantities_of
+from validation.advice.models_of_scene import quantities_of
 from validation.railway.scenes import rail_file
 from validation.railway.scenes.rail import RailScene
 from validation.scenes import bundled, load, reader

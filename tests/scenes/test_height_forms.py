@@ -127,6 +127,62 @@ def test_places_that_fall_turn_the_heights(tmp_path, down, right):
     assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
 
 
+@pytest.mark.parametrize("step", [0.5, -0.5])
+@pytest.mark.parametrize("corner", [False, True])
+def test_steps_of_places_below_one_rise_or_fall(tmp_path, step, corner):
+    places, way = step * np.arange(64.0), 1 if step > 0 else -1
+    table = np.column_stack([places, HEIGHT[::way, ::way] if corner else HEIGHT[::way]])
+    if corner:
+        table = np.vstack([np.append(-1.0, places), table])
+    (tmp_path / "face.csv").write_text(rows_of(table), encoding="utf-8")
+    ground = heights_in(tmp_path, "face.csv", spacing='"0.5 um"', side="32 um")
+    assert ground.height == level(HEIGHT, (0.5e-6, 0.5e-6))
+    assert ground.spacing == (0.5e-6, 0.5e-6)
+
+
+def test_the_first_column_has_its_own_unit_and_its_own_spacing(tmp_path):
+    header = "x [mm]," + ",".join(f"z{i} [nm]" for i in range(32)) + "\n"
+    rows = rows_of(np.column_stack([np.arange(64.0) / 1000, 1e9 * HEIGHT[:, :32]]))
+    (tmp_path / "face.csv").write_text(header + rows, encoding="utf-8")
+    ground = heights_in(tmp_path, "face.csv", spacing='["1 um", "2 um"]')
+    assert ground.spacing == (1e-6, 2e-6) and ground.height == level(HEIGHT[:, :32], (1e-6, 2e-6))
+    refused(tmp_path, "face.csv", spacing='["2 um", "1 um"]', said="spacing must be that of the first column, 1 µm")
+
+
+def test_a_first_row_that_does_not_run_evenly_from_its_first_cell_is_of_heights(tmp_path):
+    heights = np.vstack([np.append(7.5, np.arange(1.0, 64)) * 1e-8, HEIGHT[:63]])
+    (tmp_path / "face.csv").write_text(rows_of(np.column_stack([np.arange(64.0), heights])), encoding="utf-8")
+    ground = heights_in(tmp_path, "face.csv")
+    assert ground.height == level(heights)
+    assert ground.notes()[0].count("left out") == 1
+
+
+@pytest.mark.parametrize("step", [0.5, -0.5])
+def test_a_first_row_of_places_without_a_column_is_no_heights(tmp_path, step):
+    """It gives the spacing of y, the second of two."""
+    table = np.vstack([step * np.arange(64.0), HEIGHT[:32, :: 1 if step > 0 else -1]])
+    (tmp_path / "face.csv").write_text(rows_of(table), encoding="utf-8")
+    ground = heights_in(tmp_path, "face.csv", spacing='["1 um", "0.5 um"]', side="32 um")
+    assert ground.height == level(HEIGHT[:32], (1e-6, 0.5e-6))
+    assert "its first row runs evenly, 500 nm apart, and is left out of the heights" in ground.notes()[0]
+    refused(
+        tmp_path, "face.csv", spacing='["0.5 um", "0.7 um"]', said="spacing must be that of the first row, 0.5 apart"
+    )
+
+
+def test_rows_all_of_which_run_evenly_are_heights(tmp_path):
+    """A tilted plane has no row of places."""
+    plane = np.add.outer(np.arange(64.0) ** 2, np.arange(64.0)) * 1e-8
+    (tmp_path / "face.csv").write_text(rows_of(plane), encoding="utf-8")
+    assert heights_in(tmp_path, "face.csv", 'detrend = "none"').height == pytest.approx(plane, rel=1e-12)
+
+
+def test_of_three_columns_the_one_beside_x_and_y_is_the_height(tmp_path):
+    rows = [f"{1e9 * HEIGHT[i, j]:.9f},{j},{i}\n" for i in range(64) for j in range(64)]
+    (tmp_path / "face.csv").write_text("height [nm],y [um],x [um]\n" + "".join(rows), encoding="utf-8")
+    assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
+
+
 @pytest.mark.parametrize("header", ["z [um]", "# Unit: µm", "Einheit;µm", "height (µm)"])
 def test_a_header_has_the_unit_of_all_heights(tmp_path, header):
     (tmp_path / "face.csv").write_bytes(f"Gerät 7\n{header}\n".encode("latin-1") + rows_of(1e6 * HEIGHT).encode())

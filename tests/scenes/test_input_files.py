@@ -8,10 +8,10 @@ import pytest
 
 from tests.scenes.test_height_forms import PUNCH, scene_of
 from validation.__main__ import main
+from validation.analysis.escapes import is_printable, printable, quoted, shortened
 from validation.scenes import table_files, text_dialect
 from validation.scenes.bundled import check_regular, contents_of
 from validation.scenes.load import load_scene
-from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.reader import LONGEST_LINE, MOST_BYTES
 from validation.scenes.table_files import read_table
 

@@ -1,5 +1,6 @@
 """Each limit of a scene from both sides: what is noted just beyond it is not noted just before."""
 
+import math
 from dataclasses import replace
 
 import pytest
@@ -10,7 +11,8 @@ from validation.scenes.bundled import path_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
 from validation.scenes.material import Elastic, Material
-from validation.scenes.wheel_body import DampedWheel, damping_rate
+from validation.scenes.scene import ContactEllipse
+from validation.scenes.wheel_body import DampedWheel, Wheel, damping_rate
 
 PUNCH = IndentationScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9)
 SPHERE = IndentationScene(name="it", shape="sphere", size=1.0, load=1.0, modulus=2e9)
@@ -79,3 +81,18 @@ def test_a_dashpot_is_twice_its_ratio_times_the_resonance():
     wheel = DampedWheel(radius=0.5, mass=500.0, modulus=2e11, load=4905.0, damping=0.02)
     assert damping_rate(wheel) == pytest.approx(0.04 * wheel.eigenfrequency, rel=1e-14)
     assert damping_rate(replace(wheel, damping=0.0)) == 0.0
+
+
+@pytest.mark.parametrize("name", ["radius", "mass", "modulus", "load"])
+@pytest.mark.parametrize("value", [math.inf, math.nan, 0.0, -1.0])
+def test_a_wheel_has_finite_and_positive_parameters(name, value):
+    with pytest.raises(ValueError, match=f"^{name} must be finite and positive, got {value}$"):
+        Wheel(**{"radius": 0.5, "mass": 500.0, "modulus": 2e11, "load": 5e3, name: value})
+
+
+def test_the_largest_pressure_of_an_ellipse_is_that_of_hertz():
+    """p_0 of the sphere, (2 E* / pi) sqrt(d / R), with a = sqrt(R d) and F = 4/3 E* sqrt(R) d^(3/2)."""
+    modulus, radius, approach = 2e11, 0.5, 1e-5
+    a, load = math.sqrt(radius * approach), 4 / 3 * modulus * math.sqrt(radius) * approach**1.5
+    ellipse = ContactEllipse(along=a, across=a, approach=approach, load=load)
+    assert ellipse.largest_pressure == pytest.approx(2 * modulus / math.pi * math.sqrt(approach / radius))

@@ -11,10 +11,10 @@ from scipy import stats
 import bem3d
 import mdr
 from tests.seeded import catches
-from validation.advice.quantities import models_of
+from validation.advice.models_of_scene import models_of
 from validation.scenes import measured_heights
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured_heights import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights, without_unknown_ends
 from validation.scenes.measured_surface import measured
 
 N, DX = 256, 1e-6
@@ -232,3 +232,27 @@ def test_slopes_along_the_track_are_those_of_the_first_axis():
     ridges = 1e-7 * np.sin(2 * np.pi * 8 * np.arange(N) / N)[:, np.newaxis] + 1e-3 * drawn()
     assert heights(ridges).slope_along == pytest.approx(heights(ridges).gradient, rel=1e-3)
     assert heights(ridges.T).slope_along < 0.1 * heights(ridges.T).gradient
+
+
+def test_heights_are_linear_between_points():
+    """Of x^2 on points one apart, 1/4 above it in the middle between two."""
+    n = 16
+    heights = np.add.outer((np.arange(n) - (n - 1) / 2) ** 2, np.zeros(n))
+    ground = MeasuredHeights(height=heights, spacing=(1.0, 1.0), detrend="none")
+    x = np.arange(3.0)
+    np.testing.assert_allclose(ground.at(x, x), np.add.outer(x**2 + 0.25, 0 * x), rtol=1e-12)
+
+
+def test_measured_heights_are_one_surface_whose_longest_wave_is_that_of_its_first_wavenumber():
+    ground = MeasuredHeights(height=np.random.default_rng(1).standard_normal((16, 16)), spacing=(1.0, 1.0))
+    assert ground.is_single and ground.q_max == ground.edges[-1] > ground.edges[1]
+    assert ground.longest == pytest.approx(2 * math.pi / ground.q_min)
+
+
+def test_rows_are_left_out_at_both_ends_unless_most_would_be():
+    line = np.ones((10, 2))
+    line[:1, 0] = line[8:, 1] = np.nan
+    complete, notes = without_unknown_ends(line)
+    assert len(complete) == 7 and notes == ("rows without data are left out, 1 at its beginning and 2 at its end",)
+    line[:5, 0] = np.nan
+    assert without_unknown_ends(line) == (line, ())

@@ -7,8 +7,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.seeded import catches
+from validation.analysis.escapes import quoted
 from validation.scenes import units
-from validation.scenes.printable import quoted
 from validation.scenes.units import UNITS, in_unit, quantity
 
 # what a unit is in SI, written down here once more

@@ -124,7 +124,7 @@ def test_keys_of_a_track_are_refused_where_they_do_not_belong(tmp_path, changes,
 
 
 @catches("a rough wheel that is compared as a smooth one").at(
-    "validation.scenes.wheel_track.OnTrack.rail_alone_is_rough", property(lambda scene: True)
+    "validation.scenes.wheel_body.OnTrack.rail_alone_is_rough", property(lambda scene: True)
 )
 def test_a_rough_wheel_is_loaded_and_not_compared():
     for scene in (load_scene("rough_wheel"), RollingScene(**{**ON_TRACK, "wheel": ROUGH})):

@@ -14,11 +14,11 @@ from tests.railway.power_law_ground import isotropic_strip
 from tests.seeded import catches
 from validation.advice.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.analysis.spectra import Bands
-from validation.benchmarks.work_precision import rolling as rolling_chart
+from validation.benchmarks.work_precision import problem as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
-from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.judging.kinds import from_report
-from validation.judging.kinds.held_out_solves import THIRD, OblongStrip, roll_oblong
+from validation.judging.kinds.held_out_points import THIRD, OblongStrip, roll_oblong
 from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models, wheel_on_rail
 from validation.railway.problems.equivalent_displacement import RolledRail, roll_rail
@@ -28,10 +28,10 @@ from validation.railway.problems.wheel_on_rail import WheelOnRail, roll_and_move
 from validation.railway.scenes.transverse_profile import TransverseProfile
 from validation.scenes.load import load_scene
 from validation.scenes.wheel_body import Wheel
-from validation.simulation import ridges, rolling_strip
+from validation.simulation import rolling_strip
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.exact_contacts import PublishedContact, press_ellipse
-from validation.simulation.limits_of_half_space import strip_widths
+from validation.simulation.limits import strip_widths
 from validation.simulation.model import Resolution, Target
 from validation.simulation.model_names import BEM
 from validation.simulation.reduced_models import roll_by_all
@@ -43,7 +43,7 @@ ROOT = Path(bem3d.__file__).parents[1]
 (STRIP,) = RoughStrip(spectrum=self_affine(0.7, 1.0, 4.0), height=0.2, length=8.0, width=6.0, seed=1).strips(6, 1e-6, 1)
 RAIL = isotropic_strip(3e-6, 0.06, 1.5e-3)
 ON_A_RAIL = "validation.railway.problems.equivalent_displacement:roll_boundary_elements"
-RIDGES = ridges.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
+RIDGES = rolling_strip.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
 MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=BEM, tolerance=1e-6)
 BOTH_WAYS = WideRail(strip=RAIL, width=RAIL.width, bands=Bands((120.0, 400.0, 1200.0)))
 OBLONG = OblongStrip(scene=THIRD, height=0.2, cells=6, by_load=False)
@@ -71,7 +71,7 @@ def by_a_model(target):
 
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
-    "validation.simulation.ridges:_roll": lambda: ridges.roll_over(RIDGES),
+    "validation.simulation.rolling_strip:_roll": lambda: rolling_strip.roll_over(RIDGES),
     "validation.simulation.rolling_strip:roll_loaded_strip": lambda: rolling_strip.roll_loaded_strip(STRIP),
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
@@ -84,15 +84,15 @@ PATHS = {
     "validation.railway.problems.wheel_on_rail:EllipseLaw": lambda: without_a_flag(
         **dict(zip(("approach", "force"), wheel_on_rail.in_motion(MOVING), strict=True))
     ),
-    "validation.benchmarks.work_precision.rolling:_roll": lambda: without_a_flag(
+    "validation.benchmarks.work_precision.problem:_roll": lambda: without_a_flag(
         force=rolling_chart._roll(STRIP.surface(), 6, 1e-6)()
     ),
     "validation.simulation.exact_contacts:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),
-    "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),
+    "validation.simulation.limits:strip_widths": lambda: strip_widths((13, 18), finer=6),
     "validation.judging.kinds.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
-    "validation.judging.kinds.held_out_solves:roll_oblong": lambda: roll_oblong(OBLONG),
+    "validation.judging.kinds.held_out_points:roll_oblong": lambda: roll_oblong(OBLONG),
 }
 
 
@@ -133,8 +133,8 @@ def without_flag(solve):
 @catches("roll_by_all without its flag", path="validation.simulation.reduced_models:boundary_elements").at(
     f"{__name__}.roll_by_all", without_flag(roll_by_all)
 )
-@catches("roll_over without its flag", path="validation.simulation.ridges:_roll").at(
-    "validation.simulation.ridges.roll_over", without_flag(ridges.roll_over)
+@catches("roll_over without its flag", path="validation.simulation.rolling_strip:_roll").at(
+    "validation.simulation.rolling_strip.roll_over", without_flag(rolling_strip.roll_over)
 )
 @catches("roll_loaded_strip without its flag", path="validation.simulation.rolling_strip:roll_loaded_strip").at(
     "validation.simulation.rolling_strip.roll_loaded_strip", without_flag(rolling_strip.roll_loaded_strip)

@@ -10,7 +10,7 @@ from tests.simulation.wheels import ULP, WHEEL, drift, quantum, springs_law, tra
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.contact_laws import LinearLaw
 from validation.simulation.motion import natural_periods, periodic_motion, simulate
-from validation.theory import wheel as wheel_theory
+from validation.theory import rolling as wheel_theory
 
 
 def one_copy(wheel, law, **settings):
@@ -72,7 +72,7 @@ def periodogram(record, time_step):
     return np.fft.fftfreq(count, time_step), spectrum
 
 
-@catches("factor 4 lost in the leakage", count=64).at("validation.theory.wheel.leakage", Times(4.0))
+@catches("factor 4 lost in the leakage", count=64).at("validation.theory.rolling.leakage", Times(4.0))
 @pytest.mark.parametrize("count", [64, 101])
 def test_leakage_is_the_spectrum_of_a_ramp(count):
     dt, jump = 0.3, -1.7

@@ -13,7 +13,7 @@ from validation.scenes.wheel_body import Wheel
 from validation.simulation import integrators
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.motion import natural_periods, simulate
-from validation.theory import wheel as wheel_theory
+from validation.theory import rolling as wheel_theory
 
 ORDERS = {"explicit Euler": 1, "symplectic Euler": 1, "velocity Verlet": 2, "Runge-Kutta": 4}
 

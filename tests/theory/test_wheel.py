@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.seeded import catches
-from validation.theory import wheel
+from validation.theory import rolling as wheel
 
 OMEGA = np.array([0.3, 0.9, 1.0, 1.3, 7.0]) * 40.0
 K, M, ZETA = 8000.0, 5.0, 0.07
@@ -29,7 +29,7 @@ def damped_wheel_alone(omega, **given):
 
 
 @catches("a dashpot without its own force on the wheel").at(
-    "validation.theory.wheel.contact_force_over_force", damped_wheel_alone
+    "validation.theory.rolling.contact_force_over_force", damped_wheel_alone
 )
 def test_acceleration_and_force_over_the_force_at_a_fixed_approach():
     d = np.array([solved(w) for w in OMEGA])

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from validation.engine.engine import FloatArray
 from validation.engine.sources import version_of
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.rolling import RollingScene
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity, RollingScene
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.indentation import ground_of
 from validation.simulation.method import Resolution
@@ -131,8 +130,8 @@ OPEN_ABOVE, OPEN_BELOW = (LOAD,), (HEIGHT, LONG, MOVING_LONG)
 """Beyond these ends of the table the error at the end holds: a punch under a high load is a flat one, low roughness
 changes next to nothing, and waves much longer than the contact only move it."""
 NO_NUMBERS = (
-    "mdr.formatting",
-    "bem3d.formatting",
+    "mdr.results",
+    "bem3d.results",
     "bem3d.progress",
     "validation.analysis.number_text",
     "validation.scenes",

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness

@@ -6,14 +6,15 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from matplotlib.axes import Axes
 
-from validation.advice.compare import Comparison, OneOrSeveral, listed
+from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.exported import csv_table
 from validation.advice.table import by_quantity, counted_bands, reference_of, shown_models, speed_and_accuracy
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.series import ENDS
-from validation.report.drawing import DrawnPanel, picture_of
+from validation.report.drawing import DrawnPanel, drawn_on, picture_of
 from validation.report.style import FORMATS, in_two_lines, legend_name
 
 MOST = 5
@@ -56,9 +57,17 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     """
     if form not in FORMATS:
         raise ValueError(f"form must be one of {', '.join(FORMATS)}, got {form!r}")
-    comparisons = listed(comparison)
+    comparisons = comparisons_of(comparison)
     title, drawn = panels_of(comparisons)
     return _picture(title, drawn, form, partial(names_of_users, comparisons))
+
+
+def plot(comparison: Comparison, ax: Axes | None = None) -> Axes:
+    """The first panel of `to_figure` on axes of a user, or on those of a new figure."""
+    (panel, table), *_ = _panels_of_quantity([comparison])
+    names = [str(name) for name in table.columns.get("model", ())]
+    title = f"{comparison.scene.name}: {comparison.quantity}"
+    return drawn_on(ax, replace(panel, title=title), table, names_of_users([comparison], names))
 
 
 def panels_of(comparisons: Sequence[Comparison]) -> tuple[str, list[DrawnPanel]]:
@@ -166,7 +175,7 @@ Interval = tuple[float, float, float]
 """Value, low and high; NaN where a model was not solved, or its error is unknown."""
 
 PANELS = 4
-"""Of a spectrum: the A-weighted force where there is one, and the bands that change most among those that count."""
+"""Of a spectrum: the sound power where there is one, and the bands that change most among those that count."""
 DECADE = 10.0
 """Ratio of swept values from which on their axis is logarithmic."""
 SAME = 10**0.05
@@ -176,7 +185,7 @@ Points = list[tuple[Comparison, str]]
 
 
 def _panels_of_sweep(comparisons: Sequence[Comparison]) -> Iterator[DrawnPanel]:
-    """One panel of a single number, else one of the force and of `PANELS` bands; a line a model, or a scene."""
+    """One panel of a single number, else one of the sound power and of `PANELS` bands; a line a model, or a scene."""
     first = comparisons[0]
     lines = dict(list(_lines_of_sweep(comparisons).items())[:MOST])
     if first.swept is None or not lines:
@@ -186,12 +195,15 @@ def _panels_of_sweep(comparisons: Sequence[Comparison]) -> Iterator[DrawnPanel]:
     numbers = [value for value in values if isinstance(value, float)]
     is_log = len(numbers) == len(values) and min(numbers) > 0 and max(numbers) >= DECADE * min(numbers)
     panel = Panel(first.swept.label, _label(first), log="x" if is_log else "", ticked=is_log, own_y=True)
-    force = first.is_level and all(comparison.force for comparison in comparisons)
-    if force:
-        table = _table_of_sweep(f"force of {first.quantity}", lines, {math.nan: _interval_of_force})
-        title = "contact force at a constant height"
-        yield replace(panel, title=title, y="A-weighted [dB re 1 N]").of(*_curves(table.name, lines, bands=True)), table
-    waves = _most_changing_waves(comparisons, PANELS - force) if first.is_level else [math.nan]
+    power = first.is_level and all(comparison.power for comparison in comparisons)
+    if power:
+        table = _table_of_sweep(f"sound power of {first.quantity}", lines, {math.nan: _interval_of_power})
+        title = "sound power"
+        yield (
+            replace(panel, title=title, y="A-weighted [dB re 1 pW]").of(*_curves(table.name, lines, bands=True)),
+            table,
+        )
+    waves = _most_changing_waves(comparisons, PANELS - power) if first.is_level else [math.nan]
     table = _table_of_sweep(first.quantity, lines, {wave: partial(_interval_of_model, wave=wave) for wave in waves})
     facet = WAVELENGTH if first.is_level else ""
     yield replace(panel, facet=facet).of(*_curves(table.name, lines, bands=True)), table
@@ -248,16 +260,17 @@ def _interval_of_model(comparison: Comparison, name: str, wave: float) -> Interv
     for candidate in comparison.selection.solved:
         at = 0 if math.isnan(wave) else _index_of_band(comparison, wave)
         if candidate.name == name and at is not None:
-            return _interval(comparison.value_of(candidate)[at], comparison.errors_of(candidate)[at])
+            value, half_width = map(np.atleast_1d, (comparison.value_of(candidate), comparison.errors_of(candidate)))
+            return _interval(value[at], half_width[at])
     return math.nan, math.nan, math.nan
 
 
-def _interval_of_force(comparison: Comparison, name: str) -> Interval:
+def _interval_of_power(comparison: Comparison, name: str) -> Interval:
     """The sum over all bands; the error of the selected model alone is known."""
-    force = comparison.force
-    if force is None or name not in force.levels:
+    power = comparison.power
+    if power is None or name not in power.levels:
         return math.nan, math.nan, math.nan
-    return _interval(force.total(name), force.error if name == force.chosen else math.inf)
+    return _interval(power.total(name), power.error if name == power.chosen else math.inf)
 
 
 def _interval(value: float, half: float) -> Interval:

@@ -9,7 +9,9 @@ from typing import Literal
 import numpy as np
 
 from validation.advice.scene_model import Answer, SceneModel
-from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.analysis.escapes import one_line, shortened_text
+from validation.analysis.number_text import short
+from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.simulation.model import ErrorEstimate
 
 ALIKE = 2.0
@@ -49,6 +51,13 @@ def distance_of(first: Answer, second: Answer) -> float:
 
 
 Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range", "not asked"]
+
+
+def percent(error: float) -> str:
+    """A relative error in per cent, two digits."""
+    return f"{short(100 * error)} %"
+
+
 REFUSALS = (ValueError, ArithmeticError, MemoryError, NotConvergedError)
 """What a solve raises where it has no answer to a scene; it is a row of the table, and the other models go on."""
 
@@ -62,6 +71,10 @@ class Candidate:
     reason: str
     estimate: ErrorEstimate
     answer: Answer | None = None
+
+    def __repr__(self) -> str:
+        error = f"error {percent(self.error)}" if math.isfinite(self.error) else "error unknown"
+        return one_line(f"Candidate({shortened_text(self.name)!r}, {self.status}, {error})")
 
     @property
     def name(self) -> str:
@@ -111,6 +124,11 @@ class Selection:
 
     tolerance: float
     candidates: tuple[Candidate, ...]
+
+    def __repr__(self) -> str:
+        best = f"{shortened_text(self.best.name)!r}" if self.best else "no model"
+        within = "within" if self.met else "not within"
+        return f"Selection({best} {within} {percent(self.tolerance)}, {len(self.candidates)} models)"
 
     @property
     def met(self) -> bool:
@@ -179,7 +197,7 @@ def select_model(
             candidate = _solve_candidate(candidate, callback, tolerance)
         selection = Selection(tolerance, (*selection.candidates, candidate))
     # the error of an answer may be more than another model claims
-    while not selection.met and (least := _least_estimate(selection)) is not None:
+    while not selection.met and (least := _most_promising_skipped(selection)) is not None:
         candidates = [
             _solve_candidate(candidate, callback, tolerance) if candidate is least else candidate
             for candidate in selection.candidates
@@ -287,8 +305,12 @@ def _solve_candidate(
     return replace(candidate, status=status, reason=answer.reason, answer=answer)
 
 
-def _least_estimate(selection: Selection) -> Candidate | None:
-    """The skipped model that may leave less than all solved ones; of equal estimates the dearest (finest grid)."""
+def _most_promising_skipped(selection: Selection) -> Candidate | None:
+    """The skipped model of the smallest predicted error, if that is below the errors of all solved ones; else None.
+
+    Of equal ones the dearest (finest grid). Where no predicted error is within the tolerance: the dearest alone, and
+    none once a model has been selected.
+    """
     skipped = [candidate for candidate in reversed(selection.candidates) if candidate.status == "skipped"]
     if all(candidate.estimate.of_scene > selection.tolerance for candidate in skipped):
         skipped = skipped[-1:] if selection.best is None else []

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from validation.advice import advice, summary
 from validation.advice.compare import Comparison
-from validation.advice.contact_force import LEVELS
 from validation.advice.exported import SCHEMA_OF_JSON, csv_table, to_json_of
 from validation.advice.figure import to_figure
+from validation.advice.sound_power import LEVELS
 from validation.advice.table import TOGETHER, by_quantity, reference_of
 from validation.analysis.contents import as_csv, as_json
 from validation.report.formats import templates
@@ -74,7 +74,7 @@ def _entries_of_scene(name: str, comparison: Comparison) -> dict[str, object]:
         "models": summary.models_of_page(comparison),
         "bands": summary.bands_of(comparison, best.name) if best and comparison.is_level else None,
         "levels": LEVELS if comparison.roughness.size else "",
-        "force": comparison.force,
+        "power": comparison.power,
         "differences": levels or (summary.numbers_of_models(comparison) if several else None),
         "letters": letters,
         "reference": reference_of(comparison).name if several else "",

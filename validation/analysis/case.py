@@ -1,13 +1,19 @@
 """A case of the report: the claim under test, its two sizes, and how its evidence comes about."""
 
-from collections.abc import Callable
+import string
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
-if TYPE_CHECKING:
-    from validation.analysis.evidence import Evidence
-    from validation.analysis.study import Study
+from validation.analysis.chart import Chart
+from validation.analysis.claim_text import in_sentence
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.escapes import one_line
+from validation.analysis.evidence import Evidence, Number, Table
+from validation.analysis.number_text import with_prefix
+from validation.analysis.series import Series, numbers_of, tables_of
+from validation.analysis.spectra import Sounds
 
 Profile = Literal["quick", "full"]
 
@@ -74,6 +80,9 @@ class Case:
     study: "Study"
     timed: bool = False
 
+    def __repr__(self) -> str:
+        return one_line(f"Case({self.name!r}, {self.answers})")
+
     def evidence(self, result: Any) -> "Evidence":
         """The tables, numbers, claims and charts that the study derives from a result of `run`."""
         return self.study.evidence(result)
@@ -95,3 +104,139 @@ class Case:
     def model_needed(self, settings: Any) -> str:
         """The cheapest model that these settings need."""
         return self.needs if isinstance(self.needs, str) else self.needs(settings)
+
+
+class Settings(string.Formatter):
+    """Settings in a text: `{c.hurst:g}`; of several values, `{c.heights:g}` prints all; `{c.height:SI}m` has "2 µm"."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if isinstance(value, tuple | list):
+            parts = [self.format_field(part, format_spec) for part in value]
+            return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else "".join(parts)
+        if format_spec == "SI":
+            return with_prefix(value)
+        return str(super().format_field(value, format_spec))
+
+
+def _title(clauses: Iterable[str]) -> str:
+    """Join the clauses to one title, "First; second; third"."""
+    return "; ".join(in_sentence(clause) if i else clause for i, clause in enumerate(clauses))
+
+
+def nothing(*_: Any) -> tuple[()]:
+    return ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """What a case declares in addition to its settings and solves.
+
+    Texts may have settings in braces, as ``{c.hurst:g}``; ``:SI`` prints a prefix.
+
+    Attributes
+    ----------
+    title, method : str
+        Heading of the case, and how its numbers were found.
+    series : callable
+        From a result to the series that it shows. A result has ``case``, its settings, and ``unconverged``, names of
+        failed solves, as `Outcomes` does.
+    claims : sequence of Claim
+        The first is that of the case; none where a case is only played. A claim without numbers is named as untested.
+    charts : sequence of Chart
+        Figures, drawn from the tables alone.
+    matrices : sequence of Matrix
+        Tables of verdicts on the page.
+    printed : sequence of str
+        Names of tables that are on the page as they stand.
+    tables : callable
+        From a result to tables that no series makes.
+    once_more : callable
+        From a result and its numbers to numbers that are judged by another margin in addition.
+    notes : callable
+        From a result to sentences that no pattern has.
+    sounds : callable
+        From a result to what the page plays, or None.
+
+    Raises
+    ------
+    ValueError
+        If two claims have one key.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> from validation.analysis.series import single
+    >>> from validation.case import Claim, Outcomes, Study
+    >>> claim = Claim(quantity="k").saying("{c.body} has 2 E* a.", short="The stiffness agrees with 2 E* a", key="k")
+    >>> study = Study(
+    ...     title="Hertz",
+    ...     method="One load.",
+    ...     series=lambda result: [single("k", "BEM", result["k"], 0.01, "2 E* a", "1 % of it", 1.0)],
+    ...     claims=[claim],
+    ... )
+    >>> evidence = study.evidence(Outcomes(SimpleNamespace(body="A sphere"), {"k": 1.002}))
+    >>> evidence.claims[0].claim, evidence.finding
+    ('A sphere has 2 E* a.', 'The stiffness agrees with 2 E* a within 0.01.')
+    """
+
+    title: str
+    method: str
+    series: Callable[[Any], Sequence[Series]]
+    claims: Sequence[Claim] = ()
+    charts: Sequence[Chart] = ()
+    matrices: Sequence[Matrix] = ()
+    printed: Sequence[str] = ()
+    tables: Callable[[Any], Sequence[Table]] = nothing
+    once_more: Callable[[Any, Sequence[Number]], Sequence[Number]] = nothing
+    notes: Callable[[Any], Sequence[str]] = nothing
+    sounds: Callable[[Any], Sounds | None] = lambda result: None
+
+    def __post_init__(self) -> None:
+        keys = [claim.key for claim in self.claims if claim.key]
+        if twice := {key for key in keys if keys.count(key) > 1}:
+            raise ValueError(f"claims must have keys of their own, got twice: {', '.join(sorted(twice))}")
+
+    def evidence(self, result: Any) -> Evidence:
+        series = self.series(result)
+        numbers, tables, case = numbers_of(series), (*tables_of(series), *self.tables(result)), result.case
+        numbers = (*self.once_more(result, numbers), *numbers)
+        filled = [replace(claim, says=self._filled(claim.says, case)) for claim in self.claims]
+        pairs = [(claim, claim.judged(numbers)) for claim in filled if claim.numbers(numbers)]
+        untested = [f"No number tests the claim: {claim.says}" for claim in filled if not claim.numbers(numbers)]
+        headlines = {claim.says: claim.headline(judged) for claim, judged in pairs if claim.short}
+        return Evidence(
+            title=self.title,
+            method=self._filled(self.method, case),
+            numbers=numbers,
+            tables=tables,
+            page_tables=(
+                *(matrix.table(numbers) for matrix in self.matrices),
+                *(table for table in tables if table.name in self.printed),
+            ),
+            claims=tuple(judged for _, judged in pairs),
+            conclusions=(*self.notes(result), *untested),
+            captions={chart.name: self._filled(chart.caption, case) for chart in self.charts},
+            headlines={
+                chart.name: _title(headlines[filled[i].says] for i in chart.claims if filled[i].says in headlines)
+                for chart in self.charts
+            },
+            finding=f"{_title(list(headlines.values())[:2])}." if headlines else "",
+            unconverged=result.unconverged,
+            sounds=self.sounds(result),
+        )
+
+    @staticmethod
+    def _filled(text: str, case: Any) -> str:
+        return Settings().format(text, c=case)
+
+
+@dataclass(frozen=True)
+class Outcomes:
+    """Outcomes by the keys that the case has given them."""
+
+    case: Any
+    by_key: Mapping[Any, Any]
+    unconverged: tuple[str, ...] = ()
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.by_key[key]

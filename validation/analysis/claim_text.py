@@ -7,10 +7,9 @@ from enum import StrEnum
 
 import numpy as np
 
-from validation.analysis.evidence import ClaimStatus, Number, VerdictCell, placed
-from validation.analysis.number_text import Printer, place_value, tolerance_text
-from validation.analysis.ranges import WORST_AT, SeparatingCondition, worst_place
-from validation.analysis.verdict import Place, Verdict
+from validation.analysis.evidence import ClaimStatus, Number, Place, Verdict, VerdictCell, placed
+from validation.analysis.number_text import Printer, enumeration, place_text, tolerance_text
+from validation.analysis.ranges import WORST_AT, SeparatingCondition, are_regions, worst_place
 
 QUANTITY = "quantity"
 """The condition of a claim that holds for some quantities."""
@@ -193,14 +192,6 @@ def in_sentence(clause: str) -> str:
     return clause if clause[:2].isalpha() and clause[:2].isupper() else clause[:1].lower() + clause[1:]
 
 
-def listed(names: Sequence[object]) -> str:
-    """ "a", "a and b", "a, b and c", and of names that have commas themselves "a, 1; b, 1; c"."""
-    *before, last = map(str, names)
-    if len(before) > 1 and any(", " in str(name) for name in names):
-        return "; ".join((*before, last))
-    return f"{', '.join(before)} and {last}" if before else last
-
-
 def _rank(outcome: ClaimOutcome) -> str:
     if outcome.is_single:
         return ""
@@ -215,18 +206,15 @@ def _number_text(outcome: ClaimOutcome, printer: Printer) -> str:
     return f"{printer(outcome.number)}{preposition}{', '.join(texts)}" if texts else printer(outcome.number)
 
 
-def place_text(place: Place) -> str:
-    """A value or a range of a condition: "0.1", "177 to 1402"."""
-    return " to ".join(map(place_value, np.atleast_1d(place).tolist()))
-
-
 def limits_text(outcome: ClaimOutcome) -> str:
     """ "up to h/d = 1", "from q a = 2 on", "in gradient and curvature", "from ridges to alpha = 1"; else empty."""
     if not outcome.limits:
         return ""
     first, last = outcome.limits[0], outcome.limits[-1]
-    if isinstance(first, str):
-        return f"from {first} to {last}" if _is_span(outcome) else _names_text(outcome, outcome.limits)
+    if _is_span(outcome):
+        return f"from {place_text(first)} to {place_text(last)}"
+    if are_regions(outcome.limits):
+        return _names_text(outcome, outcome.limits)
     end = last[0 if outcome.descending else 1] if isinstance(last, tuple) else last
     text = placed(outcome.along, place_text(end))
     return f"from {text} on" if outcome.descending else f"up to {text}"
@@ -234,23 +222,23 @@ def limits_text(outcome: ClaimOutcome) -> str:
 
 def _rest_text(outcome: ClaimOutcome) -> str:
     """The places beyond the limits: "beyond that", "below that", "elsewhere"."""
-    if outcome.limits and isinstance(outcome.limits[0], str) and not _is_span(outcome):
+    if are_regions(outcome.limits) and not _is_span(outcome):
         return "elsewhere"
     return "below that" if outcome.descending else "beyond that"
 
 
 def _is_span(outcome: ClaimOutcome) -> bool:
     """Whether limits of regions are named by the first and the last of them."""
-    return outcome.along != QUANTITY and len(outcome.limits) > 2
+    return are_regions(outcome.limits) and outcome.along != QUANTITY and len(outcome.limits) > 2
 
 
 def _names_text(outcome: ClaimOutcome, places: Sequence[Place]) -> str:
-    return f"{'in' if outcome.along == QUANTITY else 'for'} {listed(places)}"
+    return f"{'in' if outcome.along == QUANTITY else 'for'} {enumeration(list(map(place_text, places)))}"
 
 
 def _places_text(outcome: ClaimOutcome, places: Sequence[Place]) -> str:
     """ "at h/d = 0.1", "at -5 to 0 dB over ISO 3095", "for ridges and alpha = 0.25"."""
-    if isinstance(places[0], str):
+    if are_regions(places):
         return _names_text(outcome, places)
     ends = [end for place in places for end in np.atleast_1d(place).tolist()]
     return f"at {placed(outcome.along, place_text((min(ends), max(ends)) if len(set(ends)) > 1 else ends[0]))}"

@@ -4,9 +4,9 @@ Functions of a float come first, those of a `Number` with its interval, unit and
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from validation.analysis.evidence import Number
+from validation.analysis.evidence import Number, Place
 from validation.analysis.statistics import DECIBEL
 
 NONE = "—"
@@ -16,7 +16,9 @@ DURATIONS = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3))
 
 
 def plus_minus(value: float, half_width: float) -> str:
-    """A value with its interval, to the second digit of that: 12640 ± 110."""
+    """A value with its interval, to the second digit of that: 12640 ± 110; of no finite interval "± unknown"."""
+    if math.isinf(half_width):
+        return f"{short(value)} {half_width_text(half_width)}"
     if not half_width > 0:
         return f"{value:.5g}"
     place = 1 - math.floor(math.log10(half_width))
@@ -76,6 +78,20 @@ def half_open_text(name: str, low: float, high: float, *, closed: bool = False) 
 def place_value(value: float) -> str:
     """The value of a condition with three digits; from 1000 to 1e6 it is rounded to a whole number."""
     return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.3g}"
+
+
+def place_text(place: Place) -> str:
+    """A value or a range of a condition, "0.1", "177 to 1402", a region by its name."""
+    ends = place if isinstance(place, tuple) else (place,)
+    return " to ".join(end if isinstance(end, str) else place_value(end) for end in ends)
+
+
+def enumeration(names: Sequence[object]) -> str:
+    """ "a", "a and b", "a, b and c", and of names that have commas themselves "a, 1; b, 1; c"."""
+    *before, last = map(str, names)
+    if len(before) > 1 and any(", " in str(name) for name in names):
+        return "; ".join((*before, last))
+    return f"{', '.join(before)} and {last}" if before else last
 
 
 def with_prefix(value: float) -> str:

@@ -46,3 +46,8 @@ def quantity_with(text: str) -> str:
     """The quantity of a key, or of a label, today's or of an earlier report; any other text as it is."""
     by_label = next((quantity for quantity in KNOWN.values() if quantity == text), None)
     return by_label or KNOWN.get(text) or KNOWN.get(plain_name(text)) or text
+
+
+MEAN_STIFFNESS, RELATIVE_DEVIATION = Quantity("mean_stiffness"), Quantity("relative_deviation")
+MEAN_FORCE, RMS_FORCE = Quantity("mean_force"), Quantity("rms_force")
+"""Quantities that several chapters, benchmarks and judges have."""

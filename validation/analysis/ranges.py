@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import TypeVar
 
-from validation.analysis.evidence import Number
-from validation.analysis.verdict import Place, Verdict
+from validation.analysis.evidence import Number, Place, Verdict
 
 Item = TypeVar("Item")
 WORST_AT = "worst at"
@@ -73,12 +72,20 @@ def common_verdict(numbers: Iterable[Number]) -> Verdict:
 
 
 def by_place(numbers: Iterable[Number], name: str) -> dict[Place, list[Number]]:
-    """Numbers under each value of a condition, without those that do not have it."""
+    """Numbers under each value of a condition, without those that do not have it.
+
+    Values and ranges ascend; where regions are among them all stand in the order of the numbers.
+    """
     groups: dict[Place, list[Number]] = {}
     for number in numbers:
         if name in number.where:
             groups.setdefault(number.where[name], []).append(number)
-    return groups
+    return groups if are_regions(groups) else {place: groups[place] for place in sorted(groups, key=ends_of)}
+
+
+def are_regions(places: Iterable[Place]) -> bool:
+    """Whether one of them is a region by its name, so that they have no order of their own."""
+    return any(isinstance(place, str) for place in places)
 
 
 def worst_place(number: Number) -> dict[str, Place]:
@@ -120,9 +127,7 @@ def separating_conditions(
     names = dict.fromkeys(name for number in numbers for name in number.where)
     for name in (name for name in names if name not in {*named, WORST_AT}):
         groups = by_place(remaining, name)
-        values: list[Place] = [value for value in groups if not isinstance(value, tuple)]
-        if not any(isinstance(value, str) for value in values):
-            values.sort(key=ends_of)
+        values = [value for value in groups if not isinstance(value, tuple)]
         ranges = verdict_ranges(values, [common_verdict(groups[value]) for value in values])
         separate = _separate(name, [part for part in ranges if part.verdict is verdict])
         if separate and len(separate.values) < len(values):

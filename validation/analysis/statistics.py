@@ -259,7 +259,7 @@ def weighted_sum(weights: Sequence[float] | FloatArray, parts: Sequence[Linearis
 
 @dataclass(frozen=True, eq=False)
 class Resolved:
-    """A value on cells of no size; grid: half-width that the grids leave open."""
+    """A value from several grids, and the half-width that they leave open, in the unit of the value."""
 
     value: Linearised
     grid: float
@@ -268,9 +268,17 @@ class Resolved:
         """The difference to a value from other realisations; grid errors add up as if they went the same way."""
         return Resolved(self.value.minus_independent(other.value), self.grid + other.grid)
 
+    def widened(self, left: float) -> "Resolved":
+        """With an independent error beside that of the grids, in quadrature."""
+        return Resolved(self.value, math.hypot(self.grid, left))
 
-def on_no_size(grids: Sequence[Linearised]) -> Resolved:
-    """Extrapolate the two finest grids to zero cell size; grid error: the change since the two before."""
+
+def extrapolate_to_zero(grids: Sequence[Linearised]) -> Resolved:
+    """2 f(h) - f(2h): the two finest grids extrapolated to zero cell size, of first order.
+
+    grids: at least three, from coarse to fine, each with cells half as long. Grid error: the change from the same
+    extrapolation on the two before.
+    """
     coarse, middle, fine = grids[-3:]
     grid_error = abs(2 * (fine.value - middle.value) - (middle.value - coarse.value))
     return Resolved(2.0 * fine - middle, grid_error)
@@ -336,6 +344,65 @@ def moments(values: FloatArray, used: NDArray[np.bool_]) -> Moments:
     to_mean[used] = deviations / math.sqrt(n * (n - 1))
     to_variance[used] = (deviations**2 * n / (n - 1) - variance) / math.sqrt(n * (n - 1))
     return Moments(Linearised(float(sample.mean()), to_mean), Linearised(variance, to_variance))
+
+
+COEFFICIENT = 3
+"""Fewer realisations than this times the coefficients of a regression have no use for it."""
+
+
+def regression_mean(values: FloatArray, controls: FloatArray) -> Linearised:
+    """Mean of y by regression on statistics x of the same realisations, known of more of them: a control variate.
+
+    m = mean_n(y) - beta . (mean_n(x) - mean_N(x)) over the n realisations that have y, with the mean of x over all N,
+    and beta by least squares on the n. Its variance is s^2 (1 / n + d . (X'X)^-1 d) + beta . C beta / N, with s^2 the
+    sum of squares of the residuals over n - 1 - p degrees of freedom, p the rank of x, d the difference of the means of
+    x, X the centred x of the n, and C the covariance of x over the N. Unbiased where y is linear in x, else to order
+    1 / n. x is of the realisation alone, and whatever it is, the mean that is estimated is that of y.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n or more,)
+        y, NaN where it is not known: the first realisations are those of ``controls``, others are not used.
+    controls : ndarray, shape (N, p)
+        x of each realisation, finite, one column a statistic.
+
+    Returns
+    -------
+    Linearised
+        Of all realisations; the plain mean where fewer than 3 (p + 1) of the N have y.
+
+    Notes
+    -----
+    Cochran, *Sampling Techniques* (1977), sections 7.2 to 7.4 and 12.6; Lavenberg and Welch, Manage. Sci. 27 (1981).
+
+    Examples
+    --------
+    >>> from validation.analysis.statistics import regression_mean
+    >>> x = np.linspace(-1, 1, 200)
+    >>> mean = regression_mean(3 + 2 * x[:50], x[:, np.newaxis])
+    >>> f"{mean.value:.3f} +- {mean.error:.3f}"
+    '3.000 +- 0.082'
+    """
+    total, statistics = controls.shape
+    places = max(len(values), total)
+    y_of, used = np.full(places, np.nan), np.zeros(places, dtype=np.bool_)
+    y_of[: len(values)] = values
+    used[:total] = np.isfinite(y_of[:total])
+    y, x = y_of[used], controls[used[:total]]
+    if y.size < COEFFICIENT * (statistics + 1):
+        return moments(y_of, np.isfinite(y_of)).mean
+    centred, all_centred = x - x.mean(axis=0), controls - controls.mean(axis=0)
+    inverse = np.linalg.pinv(centred)
+    slope = inverse @ (y - y.mean())
+    residuals = y - y.mean() - centred @ slope
+    freedom = y.size - 1 - int(np.linalg.matrix_rank(centred))
+    away = controls.mean(axis=0) - x.mean(axis=0)
+    spread = 1 / y.size + float(((away @ inverse) ** 2).sum())
+    # residuals are at right angles to x, so that the squares of both parts add up
+    influence = np.zeros(places)
+    influence[:total] = all_centred @ slope / math.sqrt(total * (total - 1))
+    influence[used] += residuals * math.sqrt(spread / freedom)
+    return Linearised(float(y.mean() + away @ slope), influence)
 
 
 def multilevel_moments(grids: Sequence[FloatArray]) -> list[Moments]:

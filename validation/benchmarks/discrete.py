@@ -19,7 +19,7 @@ import bem3d
 import mdr
 from validation.engine.engine import FloatArray
 from validation.engine.files import write_whole
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation.surface import draw_surface
 from validation.theory.half_space import LoveHalfSpace
 
@@ -116,6 +116,12 @@ class KnownContact(ContactProblem):
     stiffness: float
     area: float
     limits: FloatArray
+
+    def __repr__(self) -> str:
+        kind = "periodic" if self.periodic else "free"
+        return (
+            f"KnownContact({self.name!r}, {' x '.join(map(str, self.gap.shape))} cells, {kind}, F = {self.force:.4g} N)"
+        )
 
 
 def problems() -> tuple[KnownContact, ...]:

@@ -10,7 +10,7 @@ from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.peers import PeerSolver, by_pressure, solvers_with, with_threads
 from validation.benchmarks.timing import Configuration, NamedMethod, along
 from validation.engine.engine import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation.surface import draw_surface
 
 SPHERE, ROUGH = "sphere", "rough"

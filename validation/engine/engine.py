@@ -1,25 +1,32 @@
-"""Independent solves: their workers and their stored results."""
+"""Independent solves: their workers, and their results on disk.
 
+A file of a result that is not exactly as it was written is ignored.
+"""
+
+import hashlib
+import io
+import json
 import logging
 import re
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError, as_completed
 from contextlib import closing, contextmanager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from validation.engine import result_store
-from validation.engine.convergence import as_not_converged
+from validation.engine.files import is_plain, is_there, read_plain, write_whole
 from validation.engine.progress import Part
+from validation.engine.realisations import as_not_converged
 from validation.engine.sources import version_behind, version_of_numerics
 from validation.engine.workers import RESUME_NOTE, WorkerLostError, Workers
 
-FloatArray = result_store.FloatArray
-Outcome = result_store.Outcome
+FloatArray = NDArray[np.float64]
+Outcome = dict[str, FloatArray]
 P = TypeVar("P")
 K = TypeVar("K")
 
@@ -92,19 +99,17 @@ class Engine:
         """solve(problem) for each problem, in their order, whatever the number of workers.
 
         solve: a module's own function; where part of it has not converged, its outcome says so by a number "failed";
-        problems: frozen dataclasses of plain values, which their repr identifies.
+        problems: frozen dataclasses of plain values, which `identity` has in full.
         """
         keys = [
-            f"{solve.__module__}.{solve.__qualname__}({problem!r}) {version_behind(solve.__module__, problem)}"
+            f"{solve.__module__}.{solve.__qualname__}({identity(problem)}) {version_behind(solve.__module__, problem)}"
             for problem in problems
         ]
         name = solve.__module__, solve.__name__
-        places = [result_store.place_of(self.store, *name, key) if self.store else None for key in keys]
+        places = [place_of_result(self.store, *name, key) if self.store else None for key in keys]
         if self.timed_results is not None:
             self.timed_results.update((place, key) for place, key in zip(places, keys, strict=True) if place)
-        stored_outcomes = [
-            result_store.load(place, key) if place else None for place, key in zip(places, keys, strict=True)
-        ]
+        stored_outcomes = [load_result(place, key) if place else None for place, key in zip(places, keys, strict=True)]
         outcomes = {i: outcome for i, outcome in enumerate(stored_outcomes) if outcome is not None}
         failed = sum(map(_has_failures, outcomes.values()))
         progress = self.progress or Part()
@@ -134,7 +139,7 @@ class Engine:
         """
         measured: dict[Path, str] = {}
         yield replace(self, workers=1, executor=LOCAL, shared=None, timed_results=measured)
-        result_store.forget(measured)
+        forget_results(measured)
 
     def _results(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome, float], None, None]:
         """Index, outcome and seconds of each task, in the order in which they finish."""
@@ -171,6 +176,28 @@ def _results_of_workers(workers: Workers, tasks: Sequence["_PendingSolve[P]"]) -
             future.cancel()
 
 
+def identity(value: object) -> str:
+    """All digits of all that determines a problem, whatever its `repr` shows: of a dataclass each field.
+
+    A field of ``repr=False`` is left out, and one whose metadata have "later" where it is None, so that keys of what is
+    stored stay when it is added.
+    """
+    if is_dataclass(value) and not isinstance(value, type):
+        cells = [(each, getattr(value, each.name)) for each in fields(value) if each.repr]
+        kept = [(each.name, cell) for each, cell in cells if cell is not None or "later" not in each.metadata]
+        return f"{type(value).__qualname__}({', '.join(f'{name}={identity(cell)}' for name, cell in kept)})"
+    if isinstance(value, tuple) and (names := getattr(value, "_fields", ())):
+        named = (f"{name}={identity(cell)}" for name, cell in zip(names, value, strict=True))
+        return f"{type(value).__name__}({', '.join(named)})"
+    if type(value) is tuple:
+        return f"({', '.join(map(identity, value))}{',' * (len(value) == 1)})"
+    if type(value) is list:
+        return f"[{', '.join(map(identity, value))}]"
+    if type(value) is dict:
+        return "{" + ", ".join(f"{identity(key)}: {identity(cell)}" for key, cell in value.items()) + "}"
+    return repr(value)
+
+
 @dataclass(frozen=True)
 class _PendingSolve(Generic[P]):
     """A problem, its index, and where its result belongs."""
@@ -183,7 +210,7 @@ class _PendingSolve(Generic[P]):
 
     def save(self, outcome: Outcome) -> None:
         if self.place is not None:
-            result_store.save(self.place, self.key, outcome)
+            save_result(self.place, self.key, outcome)
 
 
 def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome, float]:
@@ -243,3 +270,59 @@ def _client(executor: str) -> Iterator[tuple[Any, Any]]:
         raise WorkerLostError(f"one solve has killed every worker of {executor} that tried it; {RESUME_NOTE}") from None
     finally:
         logger.setLevel(level)
+
+
+FORMAT = 2
+"""Format 1 had no list of its arrays."""
+LABEL = "stored"
+"""The entry of an archive that holds its key and lists its arrays."""
+SEAL = hashlib.sha256().digest_size
+
+
+def place_of_result(folder: Path, module: str, solve: str, key: str) -> Path:
+    """Where a result belongs. module, solve: names for its file; key: everything that determines it."""
+    return folder / f"{module.rpartition('.')[2]}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
+
+
+def load_result(path: Path, key: str) -> Outcome | None:
+    """The result that was stored under this key, or None where no intact one is there.
+
+    Raises ValueError for a link or a folder in its place.
+    """
+    if is_there(path) and not is_plain(path):
+        raise ValueError(f"a stored result must be a plain file, got {path}: move that away")
+    try:
+        contents = read_plain(path)
+        archive, seal = contents[:-SEAL], contents[-SEAL:]
+        if hashlib.sha256(archive).digest() != seal:
+            return None
+        with np.load(io.BytesIO(archive), allow_pickle=False) as entries:
+            arrays = {name: entries[name] for name in entries.files}
+        label = json.loads(str(arrays.pop(LABEL)))
+    # a valid seal may have been put behind any bytes
+    except Exception:
+        return None
+    return arrays if label == {"format": FORMAT, "key": key, "arrays": _array_types(arrays)} else None
+
+
+def save_result(path: Path, key: str, outcome: Outcome) -> None:
+    """Store a result, whole or not at all. Raises OSError, which names the place."""
+    arrays = {name: np.asarray(value) for name, value in outcome.items()}
+    label = json.dumps({"format": FORMAT, "key": key, "arrays": _array_types(arrays)}, sort_keys=True)
+    archive = io.BytesIO()
+    np.savez(archive, **{LABEL: np.array(label), **arrays})  # type: ignore[arg-type]  # stubs take a name for a flag
+    contents = archive.getvalue()
+    # readers of archives ignore a seal at the end
+    write_whole(path, contents + hashlib.sha256(contents).digest())
+
+
+def forget_results(stored: Mapping[Path, str]) -> None:
+    """Remove the results at these places, each by its key, and nothing else that is there."""
+    for path, key in stored.items():
+        if is_plain(path) and load_result(path, key) is not None:
+            path.unlink()
+
+
+def _array_types(arrays: Outcome) -> dict[str, list[object]]:
+    """Data type and shape of each array, as the label of an archive has them."""
+    return {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}

@@ -7,7 +7,7 @@ from scipy import stats
 import mdr
 from validation.analysis.evidence import Number
 from validation.engine.engine import Engine
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 
 CUT = -0.9  # Gaussian heights z of rms 1 carry above it: the mean of (z - CUT)+ is the load F / (E* h L)
 LOAD = stats.norm.pdf(CUT) - CUT * stats.norm.sf(CUT)

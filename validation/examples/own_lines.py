@@ -1,4 +1,4 @@
-"""A rail of one's own by its heights: three measured lines, and the force by another contact filter."""
+"""A rail of one's own by its heights: three measured lines, and the sound power by another contact filter."""
 
 import json
 from pathlib import Path
@@ -32,8 +32,8 @@ found = validation.compare(validation.load_scene("my_rail.toml"), tolerance="2 d
 print(validation.summary(found))
 Path("own_lines.png").write_bytes(validation.to_figure(found, form="png"))
 
-sums = {one["model"]: one["force_sum_dBA"] for one in json.loads(validation.to_json(found))["models"]}
-print(f"Remington's filter changes the force by {sums['Remington'] - sums[found.model]:+.1f} dB(A)")
+sums = {one["model"]: one["sound_power_dBA"] for one in json.loads(validation.to_json(found))["models"]}
+print(f"Remington's filter changes the sound power by {sums['Remington'] - sums[found.model]:+.1f} dB(A)")
 assert found.met
 assert abs(found.value[0]) < 0.5  # long waves pass
 assert 1 < sums["Remington"] - sums[found.model] < 6  # it takes too little of the waves as long as the contact

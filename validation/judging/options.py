@@ -7,8 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from validation.analysis.escapes import printable
 from validation.report.commands.arguments import Exit, not_beside
-from validation.scenes.printable import printable
 
 if TYPE_CHECKING:
     from validation.advice.compare import SceneProblem

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, assume, given, note, settings
 from hypothesis import strategies as st
 
-from validation.analysis.verdict import Verdict
+from validation.analysis.evidence import Verdict
 from validation.benchmarks.discrete import STATED, ContactProblem, pressed
 from validation.judging import MAPPING, SOLVER
 from validation.judging.judgement import JudgedNumber

@@ -7,7 +7,7 @@ BRINGS = {
     "quantities": "validation.railway.scenes.rail:QUANTITIES",
     "exports": "validation.railway.options:CNOSSOS",
     "edge_scenes": "validation.railway.cases.edge_scenes:EDGES",
-    "questions": "validation.railway.questions:QUESTIONS",
-    "alternatives": "validation.railway.questions:ALTERNATIVES",
+    "questions": "validation.railway.front_page:QUESTIONS",
+    "alternatives": "validation.railway.front_page:ALTERNATIVES",
     "front_page": "validation.railway.front_page",
 }

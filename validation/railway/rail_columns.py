@@ -1,4 +1,7 @@
-"""What a comparison of a rail has beside its quantity: the A-weighted contact force, and a table of its filter."""
+"""What a comparison of a rail has beside its quantity: sound power by each filter, and a table of its filter.
+
+The A-weighted contact force is for files alone, and for one release.
+"""
 
 import math
 from dataclasses import replace
@@ -6,22 +9,54 @@ from dataclasses import replace
 import numpy as np
 
 from validation.advice.compare import Comparison
-from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate
+from validation.advice.sound_power import ContactForce, SoundPower
+from validation.advice.tolerance import decibels, relative
 from validation.analysis.evidence import Table
-from validation.analysis.sound import a_weighting
-from validation.analysis.spectra import LONGEST, NominalBands
+from validation.analysis.spectra import LONGEST, NominalBands, a_weighting
 from validation.engine.engine import FloatArray
 from validation.railway.problems.rail_models import RailModel, rail_quantity
+from validation.railway.problems.rail_power import RailPower
 from validation.railway.scenes.level_files import MICROMETRE
-from validation.railway.scenes.rail import CONTACT_FILTER, RailScene
+from validation.railway.scenes.rail import CONTACT_FILTER, SOUND_POWER, RailScene
+from validation.railway.theory.sound_power import frequencies, weighting
 from validation.simulation.model import Target
 
 
-def contact_force(scene: RailScene, comparison: Comparison) -> ContactForce | None:
+def sound_power(scene: RailScene, comparison: Comparison) -> SoundPower | None:
     """Of all filters that were solved or are closed forms; None without a speed or an answer."""
+    chosen, name = comparison.selection.best, str(SOUND_POWER)
+    if scene.no_answer(name) or chosen is None or not np.isfinite(comparison.a3_of(chosen)).any():
+        return None
+    levels = dict[str, FloatArray]()
+    for candidate in (chosen, *comparison.models):
+        if candidate in comparison.selection.solved and comparison.quantity == name:
+            levels[candidate.name] = comparison.value_of(candidate) + weighting()
+        elif (a3 := _a3(comparison, candidate)) is not None:
+            levels[candidate.name] = RailPower(scene, a3).weighted
+    missing = frequencies()[np.isnan(scene.added_to_filter(name)[0])]
+    return SoundPower(
+        levels=levels,
+        error=_error_of_sum(scene, comparison, chosen),
+        speed=scene.speed or math.nan,
+        of=scene.sound_transfer.in_words,
+        missing=", ".join(f"{f:g}" for f in missing) + " Hz" if missing.size else "",
+    )
+
+
+def _error_of_sum(scene: RailScene, comparison: Comparison, chosen: Candidate) -> float:
+    """Half-width of the sum by a model that was solved [dB]."""
+    if comparison.quantity == str(SOUND_POWER):
+        return decibels(chosen.error)
+    power, parts = RailPower(scene, comparison.a3_of(chosen)), comparison.error_parts_of(chosen)
+    model, grid, sample = (relative(power.error_of_total(parts[name])) for name in ("model", "grid", "sample"))
+    return decibels(model + math.hypot(grid, sample))
+
+
+def contact_force(scene: RailScene, comparison: Comparison) -> ContactForce | None:
+    """Of all filters that were solved or are closed forms; None without a speed or an answer, and of sound power."""
     chosen = comparison.selection.best
-    if scene.speed is None or chosen is None:
+    if scene.speed is None or chosen is None or comparison.quantity == str(SOUND_POWER):
         return None
     bands, stiffness = scene.levels.bands, scene.contact.stiffness
     of_force = comparison.roughness + 20 * math.log10(stiffness * MICROMETRE)
@@ -29,13 +64,7 @@ def contact_force(scene: RailScene, comparison: Comparison) -> ContactForce | No
     filters = {candidate.name: _a3(comparison, candidate) for candidate in (chosen, *comparison.models)}
     if not np.isfinite(comparison.a3_of(chosen)).any():
         return None
-    return ContactForce(
-        levels={name: of_force + a3 for name, a3 in filters.items() if a3 is not None},
-        half_width=comparison.errors_of(chosen),
-        stiffness=stiffness,
-        speed=scene.speed,
-        span=bands.span,
-    )
+    return ContactForce({name: of_force + a3 for name, a3 in filters.items() if a3 is not None})
 
 
 def _a3(comparison: Comparison, candidate: Candidate) -> FloatArray | None:

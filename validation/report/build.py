@@ -13,10 +13,10 @@ import scipy.stats  # noqa: F401  # with most of scipy, before threads import it
 from validation.analysis.case import Profile
 from validation.analysis.contents import as_csv, as_json, csv_name
 from validation.analysis.evidence import Evidence
-from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
 from validation.engine.former_names import with_former_keys
 from validation.engine.progress import Part, Progress
+from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results

@@ -10,12 +10,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from validation.analysis.case import Settings
 from validation.analysis.claim_text import REFUTED
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
 from validation.analysis.quantity import quantity_with
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.analysis.study import Settings
 from validation.cases.exact.hertz import CAPACITANCE
 from validation.report.section import Section
 from validation.scenes.load import load_scene_with_track

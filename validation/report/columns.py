@@ -33,6 +33,7 @@ class Symbol:
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
+        """Any of its forms, or its name, where no letter or prime stands beside it."""
         return re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, self.forms or (self.name,)))})(?![\w'*])")
 
     def stands_in(self, text: str) -> bool:

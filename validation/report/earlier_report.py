@@ -10,7 +10,7 @@ from validation.analysis.case import Profile
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell, Whose
 from validation.analysis.quantity import quantity_with
-from validation.analysis.sound import Sound, Sounds
+from validation.analysis.spectra import Sound, Sounds
 from validation.engine.files import name_in, place_in
 from validation.engine.former_names import value_of
 from validation.report.contents import CASES, TIMED
@@ -105,7 +105,7 @@ def _claim(case: str, entry: Mapping[str, Any], numbers: Mapping[str, Number]) -
     tested, inside = (tuple(numbers[label] for label in entry[of]) for of in ("numbers", "inside"))
     words = {name: entry[name] for name in ("claim", "answer", "limits")}
     origin, confirmed_by = (
-        Whose(entry.get("whose", Whose.FINDING)),
+        Whose(entry.get("stated_by") or entry.get("whose", Whose.HYPOTHESIS)),
         Verdict(value_of(entry, "confirmed_by", "confirmed by")),
     )
     key = entry.get("key") or _key_of(case, entry["claim"])

@@ -121,5 +121,5 @@ def capitalized(text: str) -> str:
 
 
 def of_one(origin: Whose) -> str:
-    """ "Statement of the book", "Statement of ours"."""
-    return {Whose.BOOK: "Statement of the book", Whose.FIELD: "Statement of the field"}.get(origin, "Statement of ours")
+    """ "Statement of the book", "Our hypothesis"."""
+    return "Our hypothesis" if origin is Whose.HYPOTHESIS else f"Statement of {origin}"

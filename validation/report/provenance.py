@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import Any
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.claim_text import listed
 from validation.analysis.contents import as_json
+from validation.analysis.escapes import printable
+from validation.analysis.number_text import enumeration
 from validation.engine.engine import LOCAL, Engine
 from validation.engine.sources import version_of
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section
-from validation.scenes.printable import printable
 
 WORDS = tuple(
     f"validation.analysis.{name}" for name in ("case", "chart", "claim_text", "claims", "number_text", "study")
@@ -51,8 +51,8 @@ def require_todays_code(about: Mapping[str, Any], today: Mapping[str, str]) -> N
     made_by = about.get("code", {})
     if old := [name for name, digest in today.items() if made_by.get(name) != digest]:
         raise ValueError(
-            f"--keep keeps what today's code and settings have made; the report does not have that of {listed(old)}: "
-            f"make it anew, with --only {' '.join(old)}"
+            f"--keep keeps what today's code and settings have made; the report does not have that of "
+            f"{enumeration(old)}: make it anew, with --only {' '.join(old)}"
         )
 
 

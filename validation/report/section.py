@@ -8,6 +8,7 @@ from typing import Any
 from validation.analysis.case import Case, Profile
 from validation.analysis.contents import conditions_in_json, plain_name
 from validation.analysis.evidence import (
+    OF_NUMBERS,
     ClaimStatus,
     Evidence,
     JudgedClaim,
@@ -17,7 +18,6 @@ from validation.analysis.evidence import (
     VerdictCell,
     Whose,
 )
-from validation.analysis.verdict import OF_NUMBERS
 from validation.engine.former_names import with_former_keys
 
 PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"
@@ -104,8 +104,8 @@ def numbers_table(numbers: Sequence[Number]) -> Table:
 
 
 def claims_of_others(sections: Sequence[Section]) -> list[tuple[Section, JudgedClaim]]:
-    """Statements of the book and of the field, in the order of their sections."""
-    return [(s, claim) for s in sections for claim in s.claims if claim.whose is not Whose.FINDING]
+    """Statements of the book and of the literature, in the order of their sections."""
+    return [(s, claim) for s in sections for claim in s.claims if claim.whose is not Whose.HYPOTHESIS]
 
 
 def total_of(sections: Sequence[Section]) -> str:
@@ -130,7 +130,9 @@ def case_results(section: Section) -> dict[str, object]:
         "claim": section.entry.claim,
         "claims": [
             {
-                **{name: getattr(claim, name) for name in ("key", "claim", "whose", "answer", "limits")},
+                **{name: getattr(claim, name) for name in ("key", "claim", "answer", "limits")},
+                "whose": claim.whose.earlier,
+                "stated_by": claim.whose,
                 "status": claim.status.earlier,
                 "outcome": claim.status,
                 "verdicts": {verdict.earlier: claim.count(verdict) for verdict in OF_NUMBERS},

@@ -7,7 +7,7 @@ import scipy.io.wavfile
 from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.evidence import Evidence, Table
-from validation.analysis.sound import Sounds
+from validation.analysis.spectra import Sounds
 from validation.report.folder import SOUNDS
 
 LARGEST = 2**15 - 1

@@ -5,8 +5,8 @@ import stat
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from validation.analysis.escapes import printable
 from validation.engine.street import objects_of_houses
-from validation.scenes.printable import printable
 
 SCENES = Path(__file__).parent
 

@@ -8,13 +8,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.analysis.escapes import printable
 from validation.engine.street import objects_of_houses
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import material_of
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import heights_of, measured
-from validation.scenes.printable import printable
 from validation.scenes.reader import Reader, errors_of_file, table, tables_of, value_of_one_key, values
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import roughness_of

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from mdr.checks import positive
+from validation.analysis.escapes import shortened
 from validation.analysis.spectra import Detrend
 from validation.analysis.statistics import FloatArray
 from validation.scenes.measured_heights import (
@@ -19,9 +20,7 @@ from validation.scenes.measured_heights import (
     points_to_fill,
     real_numbers,
 )
-from validation.scenes.number_table import NumberTable
-from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
-from validation.scenes.printable import shortened
+from validation.scenes.number_table import NumberTable, grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.reader import LENGTH, Reader, table, values
 from validation.scenes.table_files import FORM, heights_of_columns, read_scene_table, sentence_about
 from validation.scenes.units import in_unit, metres_of, unit_of

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, get_args
 
 from mdr.checks import count, finite, positive
+from validation.analysis.escapes import is_printable, printable, quoted, shortened
 from validation.analysis.spectra import Detrend
 from validation.scenes.bundled import SceneError, contents_of, line_for, places_of
-from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.units import Dimension, quantity
 
 Reader = Callable[[str, object], Any]

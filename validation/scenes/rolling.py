@@ -1,10 +1,18 @@
-"""The scene of a wheel that rolls over rough ground: quasi-statically, or with a mass, also along a track in time."""
+"""The scene of a wheel that rolls over rough ground: quasi-statically, or with a mass, also along a track in time.
+
+`RollingQuantity` is what is asked of it: levels in bands, of force or acceleration, and what linear theory expects.
+"""
 
 import math
 import warnings
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, ClassVar
+from functools import cached_property
+from itertools import pairwise
+from typing import ClassVar
 
+import numpy as np
+
+from validation.analysis.spectra import Bands
 from validation.analysis.statistics import FloatArray
 from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
 from validation.scenes.material import Material, check_scene
@@ -18,14 +26,20 @@ from validation.scenes.scene import (
     Pairs,
     SceneDefaults,
     SceneQuantity,
-    values_of,
 )
 from validation.scenes.units import in_unit
-from validation.scenes.wheel_body import DampedWheel, check_damping, diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_track import OnTrack, check_track, diagnose_track
-
-if TYPE_CHECKING:
-    from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.wheel_body import (
+    DampedWheel,
+    OnTrack,
+    check_damping,
+    check_track,
+    diagnose_short_waves,
+    diagnose_track,
+    force_on_the_way,
+    no_steady_answer,
+)
+from validation.theory.half_space import on_panels
+from validation.theory.rolling import dynamic_stiffness, force_spectrum_1d, force_spectrum_3d, force_variance
 
 MOST_WAVES = 1000
 """To a contact radius: shorter ones no grid of a wheel holds, and linear theory takes hours over them."""
@@ -122,10 +136,6 @@ class RollingScene(OnTrack, SceneDefaults):
             check_band("rail.roughness", self.ground)
             _check_waves(self.ground, self.contact_radius)
 
-    def __repr__(self) -> str:
-        given = ", ".join(f"{name}={value!r}" for name, value in values_of(self).items())
-        return f"{type(self).__name__}({given})"
-
     @classmethod
     def of_wheel(cls, scene: "RollingScene") -> "RollingScene":
         """Earlier name of `for_compare`, for one release."""
@@ -175,7 +185,7 @@ class RollingScene(OnTrack, SceneDefaults):
 
     def _asked(self, quantity: str) -> "RollingQuantity":
         # imported here, since a quantity is of a scene
-        from validation.scenes.rolling_quantity import RollingQuantity
+        from validation.scenes.rolling import RollingQuantity
 
         return RollingQuantity(self, quantity)
 
@@ -226,3 +236,151 @@ def _check_waves(rough: Roughness, a: float) -> None:
         raise ValueError(
             f"rail.roughness.shortest must be at least {least}, {MOST_WAVES} waves to the contact radius, got {got}"
         )
+
+
+QUANTITIES = tuple(map(str, (*ROLLING, *MOVING)))
+"""Keys of all that a wheel may be asked."""
+NODES = 8
+"""Of Gauss and Legendre, on half a wave of sin^2."""
+PANEL = 1.4
+"""Ratio of the ends of a panel at the most."""
+WAVES = 4
+"""Of the length that was measured, in the longest band."""
+
+
+@dataclass(frozen=True)
+class RollingQuantity:
+    """What is wanted of a wheel that rolls.
+
+    Levels in one-third octaves from the longest to the shortest wave, root mean square in each, [N] or [m/s^2]; of the
+    acceleration only those an octave and more above the resonance, since nothing need damp that; or one of all these.
+    """
+
+    scene: RollingScene
+    name: str
+
+    @property
+    def ground(self) -> RoughSurface:
+        """What is rough; ValueError for a smooth rail."""
+        return self.scene.rough_ground
+
+    @property
+    def dynamic(self) -> bool:
+        return self.name.startswith("acceleration")
+
+    @cached_property
+    def no_answer(self) -> str:
+        """Why there is no level of what is wanted, whatever the model; empty where there is one."""
+        return (self.scene.no_steady_answer() if self.dynamic else "") or self._no_band
+
+    @cached_property
+    def amplification(self) -> float:
+        """The rms force on a moving wheel over that on one at a prescribed approach, at least one [-].
+
+        Near its resonance a wheel presses deeper than roughness alone, and leaves linear theory earlier.
+        """
+        if not self.dynamic or self.scene.speed is None:
+            return 1.0
+        still = float(replace(self, name="force-rms").expected(one_dimensional=False)[0])
+        return max(1.0, force_on_the_way(self.scene.body, self.scene.speed, [self.ground]) / still)
+
+    @property
+    def whole(self) -> bool:
+        return self.name.endswith("rms")
+
+    @property
+    def q_max(self) -> float:
+        """The shortest wave that counts: of measured heights, four of their points [rad/m]."""
+        return self.ground.q_resolved
+
+    @cached_property
+    def bands(self) -> Bands:
+        """The bands of wavenumbers along the track that have levels [rad/m]. Raises ValueError where none is left."""
+        if self.name == "force-rms":
+            return Bands((0.0, math.inf))
+        if self._no_band:
+            raise ValueError(self._no_band)
+        edges = self._edges
+        return Bands((edges[0], edges[-1])) if self.whole else Bands(edges)
+
+    @property
+    def _edges(self) -> tuple[float, ...]:
+        """Edges of the one-third octaves that are left [rad/m]; empty or one where no band is."""
+        first = max(self._longest_counted, self._above_resonance)
+        return Bands.around(math.pi / self.scene.contact_radius, first, self.q_max).edges if first < self.q_max else ()
+
+    @property
+    def _longest_counted(self) -> float:
+        """The longest wave that counts: of measured heights, a quarter of their length [rad/m]."""
+        ground = self.ground
+        return WAVES * ground.q_min if ground.is_single else ground.q_min
+
+    @property
+    def longest_moving(self) -> float:
+        """The longest wave of the ground that counts: of a moving wheel, an octave above its resonance [rad/m]."""
+        return max(self.ground.q_min, self._above_resonance)
+
+    @property
+    def _above_resonance(self) -> float:
+        """The wave an octave above the resonance of a wheel with a mass [rad/m]."""
+        return 2 * self.scene.body.eigenfrequency / (self.scene.speed or 1.0) if self.dynamic else 0.0
+
+    @cached_property
+    def _no_band(self) -> str:
+        """Why no one-third octave is left, and what would help; empty where one is."""
+        if self.name == "force-rms" or len(self._edges) > 1:
+            return ""
+        if self._above_resonance > self._longest_counted:
+            end, remedy = "an octave above the resonance", "a higher speed, a larger mass or shorter waves"
+        elif self.ground.is_single:
+            end, remedy = f"{WAVES} waves on the measured length", "a longer track or points closer together"
+        else:
+            end, remedy = "the longest", "a wider band of roughness"
+        first = max(self._longest_counted, self._above_resonance)
+        return (
+            f"no whole one-third octave of waves lies between {first:.3g} rad/m, {end}, and {self.q_max:.3g} rad/m, "
+            f"the shortest that counts; {remedy} would leave one"
+        )
+
+    def transfer(self, q: FloatArray) -> FloatArray:
+        """The quantity over the force: 1, or omega^2 / |k - M omega^2 + i c omega| with omega = q v0 [- or 1/kg]."""
+        if not self.dynamic:
+            return np.ones_like(q)
+        body = self.scene.body
+        omega = q * (self.scene.speed or 0.0)
+        moved = dynamic_stiffness(omega, stiffness=body.stiffness, mass=body.mass, damping=body.damping)
+        return np.asarray(omega**2 / np.abs(moved))
+
+    def expected(self, one_dimensional: bool) -> FloatArray:
+        """Levels by linear theory, of the spectrum [N] or [m/s^2]; the variance of the force is the same in both."""
+        ground, found = self.ground, []
+        contact = {"contact_radius": self.scene.contact_radius, "modulus": self.scene.modulus}
+        if self.name == "force-rms":
+            return np.array([math.sqrt(force_variance(ground.c2d, edges=ground.edges, **contact))])
+        for q, weight in self._quadratures:
+            if one_dimensional:
+                density = force_spectrum_1d(q, lambda s: np.pi * np.abs(s) * ground.c2d(s), **contact)
+            else:
+                density = force_spectrum_3d(q, ground.c2d, edges=ground.edges, **contact)
+            found.append(math.sqrt(2 * float(np.sum(weight * density * self.transfer(q) ** 2))))
+        return np.array(found)
+
+    @property
+    def nodes(self) -> int:
+        """The number of nodes of the quadrature over all bands."""
+        if self.name == "force-rms" or self._no_band:
+            return NODES
+        return sum(q.size for q, _ in self._quadratures)
+
+    @cached_property
+    def _quadratures(self) -> list[tuple[FloatArray, FloatArray]]:
+        """Nodes of Gauss and Legendre in each band, and their weights.
+
+        On panels no longer than half a wave of sin^2(q a), nor than what a power law bends in.
+        """
+        found, a = [], self.scene.contact_radius
+        for low, high in pairwise(self.bands.edges):
+            waves = np.linspace(low, high, 2 + math.floor((high - low) * a / math.pi))
+            powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(PANEL)))
+            found.append(on_panels(np.union1d(waves, powers), NODES))
+        return found

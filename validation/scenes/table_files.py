@@ -19,11 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import count, finite
+from validation.analysis.escapes import printable, quoted, shortened
 from validation.analysis.statistics import FloatArray
 from validation.scenes.bundled import check_regular
 from validation.scenes.measured_heights import real_numbers
 from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, mask_sentinels, table_of_text
-from validation.scenes.printable import printable, quoted, shortened
 from validation.scenes.reader import Reader, nonblank_text, without_unit
 from validation.scenes.text_dialect import NoTextError
 from validation.scenes.units import LENGTHS, in_unit, metres_of

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import partial
 from typing import Literal
 
-from validation.scenes.printable import quoted, shortened
+from validation.analysis.escapes import quoted, shortened
 
 Dimension = Literal["length", "mass", "force", "pressure", "speed", "level", "share of critical"]
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from validation.engine.engine import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.roughness import RoughSurface

@@ -34,7 +34,10 @@ class PressedScene(Protocol):
         """The gap between the undeformed bodies at each cell of `half_space`."""
 
     def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
-        """What is solved beside the contact, on the clock."""
+        """The contact area that is pressed as a flat punch for its stiffness; None of a scene that needs no stiffness.
+
+        Its seconds count as those of the solve.
+        """
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values: ...
 
@@ -52,6 +55,7 @@ def press_on_springs(scene: PressedScene, resolution: Resolution) -> Prepared:
         height, length = scene.profile(resolution.size, realisation)
 
         def run() -> mdr.LoadPoint[float]:
+            """The state of the springs under the force or at the approach that the scene prescribes."""
             curve = mdr.load_curve(height, length=length, modulus=1.0)
             load = scene.load(height.size)
             return curve.at_force(load["force"]) if "force" in load else curve.at_approach(load["approach"])

@@ -12,9 +12,9 @@ import bem3d
 import mdr
 from validation.analysis.spectra import levels, waves
 from validation.engine.engine import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.measured_heights import MeasuredHeights
-from validation.scenes.rolling_quantity import RollingQuantity
+from validation.scenes.rolling import RollingQuantity
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.method import too_few
 from validation.simulation.motion import simulate_from_linear_motion

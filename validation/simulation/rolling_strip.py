@@ -1,27 +1,35 @@
-"""A wheel rolled over isotropic roughness, by boundary elements and by springs, and levels of linear theory beside it.
+"""A wheel rolled over roughness, by boundary elements and by springs, beside linear theory: isotropic, or in ridges.
 
 Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 1, and the force of Hertz is 4/3. Levels
-of linear theory are over the square of that, for h_rms = 1.
+of linear theory are over the square of that, for h_rms = 1. Read backwards, its filters give the roughness, int C_1D dq
+over each band, of levels of the force: Geike's, half of the mean square height of its waves.
 """
 
 import math
 import warnings
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache, cached_property, partial
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
 
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.engine.convergence import FEWEST, NotConvergedError
 from validation.engine.engine import Engine, FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import FEWEST, NotConvergedError, random_generator
 from validation.simulation.surface import draw_surface, draw_track, middle_of
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
-from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d, linear_force
+from validation.theory.rolling import (
+    Spectrum,
+    force_spectrum_1d,
+    force_spectrum_3d,
+    linear_force,
+    mean_force_spectrum_1d,
+)
 
 K = TypeVar("K", bound=Hashable)
 
@@ -254,3 +262,112 @@ def over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
     edges = np.array(bands.edges)
     q = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS)
     return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges))
+
+
+ASSUMED = 3.0
+"""Exponent of C_2D within a one-third octave, which a measured force does not tell; the true one is 2 H + 2."""
+
+
+def by_mean_filter(bands: Bands, levels: FloatArray) -> FloatArray:
+    """(14.14): C_1D = q^2 C_F / (2 E*^2), by the mean of the filter over a band."""
+    passed = over_bands(lambda q: mean_force_spectrum_1d(q, flat, modulus=1.0), bands) / HERTZ**2
+    return np.asarray(levels * over_bands(flat, bands) / passed)
+
+
+def by_filter_3d(bands: Bands, levels: FloatArray) -> FloatArray:
+    """The heights of all bands, none negative, that have these levels, each met as well as all others, however small.
+
+    A wave s of the surface has a part of its force in each band below s.
+    """
+    return np.asarray(nnls(filter_3d(bands) / levels[:, np.newaxis], np.ones(levels.size))[0])
+
+
+def flat(q: FloatArray) -> FloatArray:
+    """C_1D = pi q C_2D within a band, times any constant."""
+    return np.asarray(q ** (1 - ASSUMED))
+
+
+@cache
+def filter_3d(bands: Bands) -> FloatArray:
+    """Level of the force in each band (rows) of int C_1D dq = 1 in each band (columns): zero above the waves' own."""
+    edges = zip(bands.edges, bands.edges[1:], strict=False)
+    # a piece of unit height has int C_1D dq = 1/2 over positive q
+    pieces = [PiecewisePowerLaw(edges=pair, exponents=(ASSUMED,)) for pair in edges]
+    return np.stack([2 * level_3d(piece, bands) for piece in pieces], axis=1)
+
+
+BEM, FILTER, FULL, SPRINGS = "bem3d", "(14.11)", "springs, full contact", "springs, one-sided"
+CONTACT: dict[str, mdr.rolling.Contact] = {FILTER: "linear", FULL: "full", SPRINGS: "one-sided"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class SuperposedRidges:
+    """Many waves at once, with amplitudes as 1/q, so that the force is as large by every wave; a = d = E* = 1.
+
+    length: of the track over a, the longest wave; shortest: q a of the last; height: rms, over d; seed.
+    """
+
+    length: int
+    shortest: float
+    height: float
+    seed: int
+
+    @cached_property
+    def wavenumbers(self) -> FloatArray:
+        """q a of all waves of the track, up to the shortest."""
+        count = int(self.shortest * self.length / (2 * np.pi))
+        return np.asarray(2 * np.pi / self.length * np.arange(1, count + 1))
+
+    def heights(self, points: int) -> FloatArray:
+        """The heights of the ridges at so many equidistant points of the track, (points,)."""
+        q = self.wavenumbers
+        x = self.length / points * np.arange(points)
+        phase = 2 * np.pi * random_generator(self.seed).random(q.size)
+        unit = np.cos(np.outer(x, q) + phase) @ (1 / q)
+        return np.asarray(self.height * unit / math.sqrt(np.sum(0.5 / q**2)))
+
+    def response(self, up: FloatArray, down: FloatArray, height: FloatArray) -> NDArray[np.complex128]:
+        """The transfer function from height to force, (waves,); (up - down) / 2 has no even orders of the height."""
+        waves = slice(1, self.wavenumbers.size + 1)
+        return np.asarray(np.fft.rfft((up - down) / 2)[waves] / np.fft.rfft(height)[waves])
+
+
+@dataclass(frozen=True, kw_only=True)
+class RidgesTrack:
+    """One track, rolled by one method, at the prescribed approach or at the force that belongs to it.
+
+    cells: or springs, to a contact radius; tolerance: residual of boundary elements.
+    """
+
+    ridges: SuperposedRidges
+    method: str
+    cells: float
+    prescribed: str = "approach"
+    tolerance: float = 1e-10
+
+
+def roll_over(track: RidgesTrack) -> Outcome:
+    """Response to each wave over 2 E* a, real and imaginary part, of the force, or of the approach under a force."""
+    ridges, by_approach = track.ridges, track.prescribed == "approach"
+    points = round(ridges.length * track.cells)
+    height = ridges.heights(points)
+    settings: dict[str, Any] = {
+        "spacing": ridges.length / points,
+        "radius": 1.0,
+        "modulus": 1.0,
+        **({"approach": 1.0} if by_approach else {"force": 4 / 3}),
+    }
+    runs = [_roll(track, sign * height, settings) for sign in (1, -1)]
+    up, down = (run.force if by_approach else run.approach for run in runs)
+    response = ridges.response(up, down, height) / 2
+    failed = sum(np.count_nonzero(~run.converged) for run in runs if isinstance(run, bem3d.Rolling))
+    return {"response": np.stack([response.real, response.imag]), "failed": np.array(float(failed))}
+
+
+def _roll(track: RidgesTrack, height: FloatArray, settings: dict[str, Any]) -> bem3d.Rolling | mdr.RollingTrack:
+    """The ridges rolled over by the method of the track: on springs, or by boundary elements on a strip of them."""
+    if track.method != BEM:
+        return mdr.roll(height, contact=CONTACT[track.method], **settings)
+    width = 2 * math.ceil(1.45 / settings["spacing"])
+    strip = np.repeat(height[:, np.newaxis], width, axis=1)
+    return bem3d.roll(strip, tolerance=track.tolerance, raise_on_failure=False, **settings)

@@ -11,7 +11,7 @@ import scipy
 
 import mdr
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.roughness import Roughness
 from validation.simulation.contact_laws import HertzLaw, SpringsLaw
 from validation.simulation.free_vibration import SPEED, WHEEL
@@ -169,7 +169,7 @@ def refusals() -> dict[str, str]:
 
 
 def refusal(call: Callable[[], object]) -> str:
-    """The message of a call that is refused, else nothing."""
+    """The message of the ValueError that a call raises; empty where it raises none."""
     try:
         call()
     except ValueError as error:

@@ -12,7 +12,7 @@ import bem3d
 import mdr
 from bem3d.checks import Spectrum
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum

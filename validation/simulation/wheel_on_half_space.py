@@ -7,7 +7,7 @@ import numpy as np
 
 import bem3d
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel

@@ -10,7 +10,7 @@ from scipy.fft import next_fast_len
 
 from validation.analysis.spectra import band_means, record_spectra
 from validation.engine.engine import FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel

@@ -9,7 +9,7 @@ import numpy as np
 from validation.advice.calibration_scenes import QUANTITIES
 from validation.advice.cases.random_scenes import EdgeKind, log_uniform
 from validation.engine.engine import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.engine.street import objects_of_houses
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured_heights import MeasuredHeights

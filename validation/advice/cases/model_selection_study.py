@@ -22,7 +22,7 @@ from validation.analysis.series import Margin
 from validation.analysis.statistics import Interval
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.engine import Outcome
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 
 COVERAGE = Quantity("share_of_scenes_whose_true_error_is_within_the_estimated_one")
 SPENT = Quantity(

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from validation.advice.calibration_scenes import QUANTITIES
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness

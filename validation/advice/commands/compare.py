@@ -9,12 +9,12 @@ from typing import Any
 
 from validation.advice.compare import Comparison, SceneProblem, Swept, swept_values
 from validation.advice.export import Export
-from validation.advice.named_models import label_notes
-from validation.advice.quantities import all_quantities, quantities_of
+from validation.advice.models_of_scene import all_quantities, label_notes, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
-from validation.advice.summary import findings, heading, in_full, in_short, summary
+from validation.advice.summary import facts, findings, heading, in_full, in_short, summary
 from validation.advice.tolerance import tolerance_of
+from validation.analysis.escapes import coloured, printable
 from validation.analysis.number_text import format_seconds
 from validation.engine.engine import Engine
 from validation.engine.files import write_output
@@ -23,7 +23,6 @@ from validation.engine.street import objects_of_houses
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, comma_separated
 from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
-from validation.scenes.printable import printable
 from validation.scenes.reader import errors_of_file
 from validation.scenes.scene import Scene
 
@@ -183,13 +182,18 @@ def _solve_and_write(
     solved = _solve(problems, arguments)
     comparisons = [replace(comparison, swept=sweep) for comparison, sweep in zip(solved, swept, strict=True)]
     lines_of = in_full if arguments.verbose else in_short
-    print(printable(findings(comparisons, lines_of) if len(problems) == 1 else summary(comparisons), lines=True))
+    if len(problems) == 1:
+        (problem,) = problems
+        text = f"{findings(comparisons, lines_of)}\n{facts(problem.scene, problem.quantities)}"
+    else:
+        text = summary(comparisons)
+    print(coloured(printable(text, lines=True)))
     _write(comparisons, arguments)
     return comparisons
 
 
 def _solve(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
-    """What was understood of one scene is printed before it is solved."""
+    """What is asked of one scene, and notes on it, are printed before it is solved."""
     if len(problems) == 1:
         (problem,) = problems
         print(printable(heading(problem.scene, problem.quantities, problem.parsed_tolerance), lines=True), flush=True)
@@ -231,10 +235,7 @@ def _write(comparisons: list[Comparison], arguments: argparse.Namespace) -> None
     if arguments.json or arguments.csv or _exports(arguments):
         _write_data(comparisons, arguments)
     if arguments.figure is not None:
-        from validation.advice.figure import (
-            figure_over_seconds,
-            to_figure,  # which takes half a second to import
-        )
+        from validation.advice.figure import figure_over_seconds, to_figure  # which takes half a second to import
 
         form = arguments.figure.suffix[1:]
         picture = figure_over_seconds(comparisons[0], form) if arguments.over else to_figure(comparisons, form=form)

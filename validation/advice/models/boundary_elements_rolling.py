@@ -53,8 +53,11 @@ def cost(target: Target, resolution: Resolution) -> Cost:
     return Cost(work=grid.work, seconds=CELL * grid.work + POSITION * grid.along)
 
 
-def sample_alone(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
-    """What as many strips as there may be leave at the least; only a solve tells of the grid."""
+def least_sampling_error(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+    """The predicted error: of `MOST_STRIPS` strips, zero of measured heights, without a grid error.
+
+    The grid error is estimated after the solve. Out of range where the scene has no answer or its grid is too large.
+    """
     if reason := target.rolling.no_answer or _too_large(target):
         return ErrorEstimate.out_of_range(reason)
     return ErrorEstimate(
@@ -99,7 +102,7 @@ MODEL = GridModel(
     most=MOST_STRIPS,
     compared=1,
     cost=cost,
-    claim=sample_alone,
+    claim=least_sampling_error,
     prepare=prepare,
     grid_error=left_by_grid,
 )

@@ -8,7 +8,7 @@ import numpy as np
 
 import mdr
 from validation.advice.calibration import SCATTER, WAVES, calibrated_by_spectrum, conditions_of, sphere_shape
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.simulation.indentation import ground_of, is_pressed, is_rough, side_of
 from validation.simulation.method import Resolution, Result, realisations
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model

@@ -10,7 +10,7 @@ import numpy as np
 from validation.advice.calibration import beyond_envelope, beyond_spectrum, calibrated, counted, lost_contact
 from validation.engine.engine import FloatArray
 from validation.scenes.measured_heights import OBLONG
-from validation.scenes.rolling_quantity import QUANTITIES, RollingQuantity
+from validation.scenes.rolling import QUANTITIES, RollingQuantity
 from validation.simulation.method import Resolution, Result, distance
 from validation.simulation.model import Cost, ErrorEstimate, Function, Model, Target, model
 from validation.simulation.model_names import FILTER_1D, FILTER_3D, SPRINGS

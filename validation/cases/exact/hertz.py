@@ -12,8 +12,8 @@ from validation.analysis.evidence import Number, Role
 from validation.analysis.number_text import off_by
 from validation.analysis.series import Margin, single
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.simulation import exact_contacts as contacts
 from validation.simulation import model_needed
 from validation.simulation.exact_contacts import CosineWave, FlatPunches, PublishedContact, SmoothSphere

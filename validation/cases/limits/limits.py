@@ -12,7 +12,7 @@ from validation.analysis.evidence import Number, Role, Table, table_of
 from validation.analysis.series import Where, single
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.cases.limits.sweeps import HALF_SPACE, LIMITS, SPRINGS, Limit, Sweep
-from validation.simulation.limit_sweeps import sweep
+from validation.simulation.limits import sweep
 
 
 @dataclass(frozen=True, kw_only=True)

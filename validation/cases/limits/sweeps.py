@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from validation.analysis.series import MARGINS
 from validation.engine.engine import FloatArray, Outcome
-from validation.simulation import limits_of_half_space as elements
-from validation.simulation import limits_of_springs as springs
-from validation.simulation.limit_sweeps import SweepProblem
+from validation.simulation import limits
+from validation.simulation.limits import SweepProblem
 from validation.simulation.rough_punch import force_levels
 from validation.simulation.spring_tracks import FINE, STRIDES
 
@@ -86,7 +85,7 @@ SPRINGS = (
     Limit(
         LimitName("linear filter, 3D", "rough strip", "height h_rms / d"),
         Probe(
-            springs.rough_strips,
+            limits.rough_strips,
             (0.003, 0.01, 0.02, 0.04, 0.08, 0.12, 0.18, 0.27, 0.4, 0.7),
             ("length", "strip_cells", "seed"),
         ),
@@ -98,7 +97,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("springs", "true contact area", "force F / (E* h L)"),
-        Probe(springs.rough_punches, FORCES, PUNCHES),
+        Probe(limits.rough_punches, FORCES, PUNCHES),
         Failing("below", "contact fraction, over that of 3D, less one", "boundary elements, rough punches", 0.1),
         "p = 0.82 E* g, g the rms gradient, where Persson's contact fraction is 0.9: springs are right near full "
         "contact only",
@@ -107,7 +106,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("springs", "mean gap", "force F / (E* h L)"),
-        Probe(springs.rough_punches, FORCES, PUNCHES, part=1),
+        Probe(limits.rough_punches, FORCES, PUNCHES, part=1),
         Failing("below", "difference of the mean gaps [h]", "boundary elements, rough punches", 0.1),
         "p = 0.34 E* g, g the rms gradient, where Persson's contact fraction is a half: springs are right where gaps "
         "are closed",
@@ -116,7 +115,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("linear filter, 1D", "level along the track", "wavenumber q a"),
-        Probe(springs.octaves, (0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 8.0, 16.0), SEED),
+        Probe(limits.octaves, (0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 8.0, 16.0), SEED),
         Failing("above", "level over that of 3D [dB]", "linear theory of the half-space, octaves", 3.0),
         "q a = 1: waves shorter than the contact are lower by Γ(H+3/2) / (√π Γ(H+2)) on the half-space",
         1.0,
@@ -124,7 +123,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("linear filter, 1D", "anisotropic surface", "aspect ratio of the waves, less one"),
-        Probe(springs.anisotropy, (1.05, 1.1, 1.2, 1.3, 1.45, 1.65, 2.0, 3.0, 5.0, 9.0), SEED),
+        Probe(limits.anisotropy, (1.05, 1.1, 1.2, 1.3, 1.45, 1.65, 2.0, 3.0, 5.0, 9.0), SEED),
         Failing("above", "rms force, over that of 3D, less one", "linear theory of the half-space, quadrature", 0.2),
         "√ratio = 1 + tolerance, for q a >> 1: a line along the long waves is taken for one of an isotropic surface",
         lambda tolerance, _: (1 + tolerance) ** 2 - 1,
@@ -132,7 +131,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("linear filter, 1D", "rough track", "height h_rms / d"),
-        Probe(springs.rough_tracks, (0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.7, 1.0), ("track", "seed")),
+        Probe(limits.rough_tracks, (0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.7, 1.0), ("track", "seed")),
         Failing("above", "force, over its fluctuation", "one-sided springs on the same track", 0.1),
         "h / d = 2 c tolerance, c = rms dF / (E* a h): second-order effect of the moving ends of the contact",
         lambda tolerance, c: 2 * c * tolerance,
@@ -140,7 +139,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("springs", "springs too far apart", "springs to the shortest wave"),
-        Probe(springs.coarser_springs, STRIDES, SEED),
+        Probe(limits.coarser_springs, STRIDES, SEED),
         Failing("below", "last one-third octave [dB]", f"{FINE} springs to the shortest wave", 1.0),
         "4 springs: z / sin z = 0.91 dB at z = π/4",
         4.0,
@@ -148,7 +147,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("springs", "the last asperity", "springs in contact"),
-        Probe(springs.last_asperities, tuple(10.0 ** (-i / 2) for i in range(1, 11)), ("profiles", "seed")),
+        Probe(limits.last_asperities, tuple(10.0 ** (-i / 2) for i in range(1, 11)), ("profiles", "seed")),
         Failing("below", "stiffness, rms over profiles", "many more springs on the same profile", 0.05),
         "1 / (√6 tolerance): the length of one contact is rounded to whole springs",
         lambda tolerance, _: 1 / (math.sqrt(6) * tolerance),
@@ -156,7 +155,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("velocity Verlet", "long time step", "ω_eigen dt"),
-        Probe(springs.time_steps, (1.5, 1.9, 1.99, 2.01, 2.1, 2.5, 3.0), settings=VERLET),
+        Probe(limits.time_steps, (1.5, 1.9, 1.99, 2.01, 2.1, 2.5, 3.0), settings=VERLET),
         Failing("above", "growth in one step, less one", "the bounded motion", 1e-3),
         "|λ| = 1 up to ω dt = 2, exp(2 arccosh(ω dt / 2)) above",
         2.0,
@@ -164,7 +163,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("explicit Euler", "energy gained", "ω_eigen dt"),
-        Probe(springs.time_steps, (0.004, 0.006, 0.009, 0.013, 0.018, 0.03, 0.1, 0.5, 1.5, 2.1), settings=EULER),
+        Probe(limits.time_steps, (0.004, 0.006, 0.009, 0.013, 0.018, 0.03, 0.1, 0.5, 1.5, 2.1), settings=EULER),
         Failing("above", "energy gained in one period", "the initial energy", 0.1),
         "ω dt = ln(1 + tolerance) / 2π: each step multiplies the energy by 1 + (ω dt)²",
         lambda tolerance, _: math.log1p(tolerance) / (2 * math.pi),
@@ -172,7 +171,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("Runge-Kutta", "energy lost", "ω_eigen dt"),
-        Probe(springs.time_steps, (0.3, 0.6, 0.9, 1.1, 1.4, 2.0, 2.6, 2.9), settings=KUTTA),
+        Probe(limits.time_steps, (0.3, 0.6, 0.9, 1.1, 1.4, 2.0, 2.6, 2.9), settings=KUTTA),
         Failing("above", "energy lost in one period", "the initial energy", 0.1),
         "(ω dt)⁵ = -72 ln(1 - tolerance) / 2π: each step multiplies the energy by 1 - (ω dt)⁶ / 72",
         lambda tolerance, _: (-72 * math.log1p(-tolerance) / (2 * math.pi)) ** 0.2,
@@ -180,7 +179,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("linear contact", "lift-off", "height h_rms / d_N"),
-        Probe(springs.higher_tracks, (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.3, 1.8), ("wheels", "seed")),
+        Probe(limits.higher_tracks, (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.3, 1.8), ("wheels", "seed")),
         Failing("above", "share of the time in the air", "one-sided springs, dynamic", 1e-4),
         "the largest tension of (14.11) reaches the load, on one of the tracks",
         lambda _, pulls_from: pulls_from,
@@ -190,7 +189,7 @@ SPRINGS = (
 HALF_SPACE = (
     Limit(
         LimitName("boundary elements", "waves of few cells", "cells to the shortest wave"),
-        Probe(elements.rough_grids, (12, 18, 24, 32, 48, 64, 96, 128), ("resolved", "seed")),
+        Probe(limits.rough_grids, (12, 18, 24, 32, 48, 64, 96, 128), ("resolved", "seed")),
         Failing("below", "contact area, rms over surfaces", "64 cells to the shortest wave", 0.1),
         "4 cells: the edge of the contact is made of cells; its error, 0.4 / cells, is measured",
         4.0,
@@ -198,7 +197,7 @@ HALF_SPACE = (
     ),
     Limit(
         LimitName("boundary elements", "contact of few cells", "cells in the contact, π (a/dx)²"),
-        Probe(elements.few_cells, (0.5, 0.8, 1.2, 1.5, 1.8, 2.1, 2.4, 3.4, 4.8, 6.8, 9.6)),
+        Probe(limits.few_cells, (0.5, 0.8, 1.2, 1.5, 1.8, 2.1, 2.4, 3.4, 4.8, 6.8, 9.6)),
         Failing("below", "stiffness, rms over places", "Hertz, k = 2 E* a", 0.05),
         "0.3 / √cells = tolerance: the error of a flat punch, an upper bound",
         lambda tolerance, _: (0.3 / tolerance) ** 2,
@@ -206,15 +205,15 @@ HALF_SPACE = (
     ),
     Limit(
         LimitName("boundary elements, periodic", "images, no padding", "period L / a"),
-        Probe(elements.images, (4, 8, 16, 24, 32, 40, 64)),
+        Probe(limits.images, (4, 8, 16, 24, 32, 40, 64)),
         Failing("below", "approach under a force", "free space, the same cells", 0.05),
         "1.655 a / L = tolerance: 3.9003 F / (π E* L) of all images and the mean plane",
-        lambda tolerance, _: elements.LATTICE * elements.HERTZ / math.pi / tolerance,
+        lambda tolerance, _: limits.LATTICE * limits.HERTZ / math.pi / tolerance,
         Judged(1.25, derived=True),
     ),
     Limit(
         LimitName("boundary elements", "edge of the grid", "side of the grid / 2 a"),
-        Probe(elements.grid_sides, SIDES),
+        Probe(limits.grid_sides, SIDES),
         Failing("below", "force at an approach", "the same cells on a wider grid", 1e-3),
         "side = 2 a: beyond the edge there is no pressure",
         1.0,
@@ -222,7 +221,7 @@ HALF_SPACE = (
     ),
     Limit(
         LimitName("boundary elements, rolling", "narrow strip", "width of the strip / 2 a"),
-        Probe(elements.strip_widths, SIDES),
+        Probe(limits.strip_widths, SIDES),
         Failing("below", "force at an approach", "the same cells on a wider strip", 0.01),
         "width = 2 a: the contact must end within the strip",
         1.0,
@@ -230,7 +229,7 @@ HALF_SPACE = (
     ),
     Limit(
         LimitName("boundary elements, approach", "full contact by approach", "mean pressure / p*"),
-        Probe(elements.full_contact, (0.5, 0.8, 0.9, 0.98, 0.995, 0.999, 1.0, 1.01, 1.1, 1.5)),
+        Probe(limits.full_contact, (0.5, 0.8, 0.9, 0.98, 0.995, 0.999, 1.0, 1.01, 1.1, 1.5)),
         Failing("above", "mean pressure at an approach", "the pressure that has this approach", 0.01),
         "p* = π E* h / λ: in full contact the approach is the mean gap at any pressure",
         1.0,
@@ -238,7 +237,7 @@ HALF_SPACE = (
     ),
     Limit(
         LimitName("boundary elements, force", "huge force, full contact", "mean pressure / p*"),
-        Probe(elements.huge_forces, tuple(2 * 10.0**i for i in range(17))),
+        Probe(limits.huge_forces, tuple(2 * 10.0**i for i in range(17))),
         Failing("above", "waves of the pressure / p*", "p* cos(2π x / λ)", 1e-5),
         "tolerance / ε, the rounding unit: the waves are lost in the digits of the uniform pressure",
         lambda tolerance, _: tolerance / np.finfo(float).eps,
@@ -246,10 +245,10 @@ HALF_SPACE = (
     ),
     Limit(
         LimitName("boundary elements", "one bad cell", "height of the spike / d"),
-        Probe(elements.spikes, (0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 30.0, 100.0, 1e3)),
+        Probe(limits.spikes, (0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 30.0, 100.0, 1e3)),
         Failing("above", "force at an approach", "the sphere without the bad cell", 0.1),
         "0.891 E* dx H = F: by Love's formula the bad cell alone carries the force of the sphere",
-        lambda _, one_cell: elements.HERTZ * one_cell,
+        lambda _, one_cell: limits.HERTZ * one_cell,
         Judged(2.0, warned=True),
     ),
 )

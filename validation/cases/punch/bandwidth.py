@@ -30,6 +30,7 @@ from validation.simulation.rough_punch import (
     RolledOffRoughness,
     Surface,
     force_levels,
+    left_by_solver,
     press_lightly,
 )
 from validation.simulation.spring_tracks import RoughAreas, press_areas
@@ -197,11 +198,14 @@ class Deviations:
         return changes
 
     def resolved(self, method: str, hurst: float, level: int) -> dict[int, Resolved]:
-        """Boundary elements to first order on cells of no size, and half of the way there; springs as they are, and
-        what twice as many change."""
+        """Boundary elements to first order on cells of no size, and half of the way there, with what the solver leaves;
+        springs as they are, and what twice as many change."""
         values, steps = (of(method, hurst, level) for of in (self.by_band, self.steps))
         taken = {BEM: 2.0, MDR: 0.0}[method]
-        return {i: Resolved(values[i] + taken * step, abs(step.value)) for i, step in steps.items()}
+        resolved = {i: Resolved(values[i] + taken * step, abs(step.value)) for i, step in steps.items()}
+        if method != BEM:
+            return resolved
+        return {i: deviation.widened(left_by_solver(deviation.value.value)) for i, deviation in resolved.items()}
 
     def ratio(self, hurst: float, level: int) -> dict[int, Resolved]:
         """MDR over boundary elements."""
@@ -224,7 +228,9 @@ class Deviations:
         # bands that go together exactly have no inverse
         inverse = np.linalg.inv(covariance + LITTLE * np.trace(covariance) * np.eye(len(waves)))
         weights = np.linalg.solve(line.T @ inverse @ line, line.T @ inverse)[1]
-        return Resolved(weighted_sum(weights, list(ratio.values())), float(np.abs(left @ weights).sum()))
+        solver = [left_by_solver(deviation.value) for deviation in self.by_band(BEM, hurst, level).values()]
+        slope = Resolved(weighted_sum(weights, list(ratio.values())), float(np.abs(left @ weights).sum()))
+        return slope.widened(float(np.abs(weights) @ solver))
 
     def without_coupling(self, hurst: float, level: int) -> dict[int, Linearised]:
         """Springs along a line over springs over an area, whose contact is k / E* wide, k that of boundary elements.

@@ -1,24 +1,26 @@
 """Ensembles of rough square punches: the settings that all cases about them share, and how they are pressed."""
 
+import math
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
 
 import numpy as np
 
 from validation.analysis.evidence import Table
+from validation.analysis.quantity import MEAN_STIFFNESS, RELATIVE_DEVIATION
 from validation.analysis.series import Estimates, Ranges, spans
-from validation.analysis.statistics import DECIBEL, FloatArray, Statistic, jackknifed
+from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statistic, jackknifed
 from validation.case import Engine, Series
 from validation.engine.engine import Outcome
-from validation.simulation.quantities import MEAN_STIFFNESS, RELATIVE_DEVIATION
 from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
     Surface,
     describe_failures,
     force_levels,
+    left_by_solver,
     press_profiles,
     press_surface,
     stacked,
@@ -131,3 +133,11 @@ def change(statistic: Statistic, before: FloatArray, after: FloatArray) -> Estim
     count = min(len(before), len(after))
     pairs = np.stack([before[:count], after[:count]], axis=1)
     return Estimates(jackknifed(lambda rows: of_rows(statistic, rows[:, 1]) - of_rows(statistic, rows[:, 0]), pairs))
+
+
+def with_solver(finer: Estimate | float) -> Estimate | float:
+    """A change to half as long cells, with what the solver leaves of a mean on cells of no size in quadrature; a float,
+    of springs or theory, as it is."""
+    if not isinstance(finer, Estimate):
+        return finer
+    return replace(finer, value=math.hypot(finer.value, left_by_solver()))

@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
-from operator import attrgetter
 
 import numpy as np
 
@@ -17,10 +16,12 @@ from validation.analysis.statistics import (
     Moments,
     Resolved,
     combined,
+    extrapolate_to_zero,
+    log,
     multilevel_moments,
     nearest,
     on_finest,
-    on_no_size,
+    regression_mean,
 )
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press, worked
@@ -29,9 +30,12 @@ from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import (
     FEW_CELLS,
+    Faces,
     Profiles,
     PunchRoughness,
     Surface,
+    left_by_solver,
+    measure_faces,
     press_lightly,
     require_converged,
 )
@@ -39,6 +43,8 @@ from validation.theory import closed_forms
 
 LONG = "springs, L_1D = 1.1523 L"
 """The 1D model whose stiffness in full contact is that of the square punch."""
+HEIGHTS = "heights"
+FACES_AT_ONCE = 500
 PAIRS = 4
 """Fewer surfaces on a grid have no error bar worth its name."""
 LEAST = math.log(0.01)
@@ -55,8 +61,9 @@ class FractalPunch(PunchEnsembles):
 
     hursts; surfaces: how many on each of these grids, coarse to fine, one row for each of as many equal parts of the
     decades of force; zero if a grid is not used, else descending, with three finer than the coarsest grid, that of
-    `cells` among them; fine_profiles: of the profiles, as many are pressed with twice the springs. cells: a multiple
-    of 8.
+    `cells` among them; drawn: how many have their heights measured on the coarsest grid, as control variates of the
+    mean stiffness where that is used, the pressed ones among them, or none; fine_profiles: of the profiles, as many are
+    pressed with twice the springs. cells: a multiple of 8.
     """
 
     hursts: tuple[float, ...] = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
@@ -66,6 +73,7 @@ class FractalPunch(PunchEnsembles):
         (160, 40, 12, 6, 0),
         (60, 16, 6, 4, 0),
     )
+    drawn: int = 1000
     profiles: int = 400
     fine_profiles: int = 100
     decades: tuple[int, int] = (-3, 1)
@@ -78,6 +86,8 @@ class FractalPunch(PunchEnsembles):
             raise ValueError(f"decades must be two powers of ten, ascending, got {self.decades}")
         if not 2 <= self.fine_profiles <= self.profiles:
             raise ValueError(f"fine_profiles must be from 2 to the {self.profiles} profiles, got {self.fine_profiles}")
+        if self.drawn and self.drawn < max(row[0] for row in self.surfaces):
+            raise ValueError(f"drawn must be none or all surfaces of the coarsest grid at least, got {self.drawn}")
         if not self.surfaces or len(self.surfaces) % (self.decades[1] - self.decades[0]):
             raise ValueError(f"surfaces must have as many rows in each decade, got {self.surfaces}")
         for row in self.surfaces:
@@ -93,6 +103,11 @@ class FractalPunch(PunchEnsembles):
     def grids(self) -> tuple[int, ...]:
         """Cells on a side, coarse to fine."""
         return tuple(self.cells * 2**i // 4 for i in range(len(self.surfaces[0])))
+
+    @property
+    def controlled(self) -> bool:
+        """Whether heights are measured, and stand beside surfaces that are pressed."""
+        return bool(self.drawn and any(row[0] for row in self.surfaces))
 
     @property
     def parts(self) -> tuple[tuple[float, float], ...]:
@@ -134,6 +149,13 @@ class FractalPunch(PunchEnsembles):
         forces = tuple(force for force in self.forces if realisation < self.counts(force).get(cells, 0))
         return self.surface_of(self.roughness(hurst, cells), realisation, cells, forces)
 
+    def faces(self, hurst: float) -> list[Faces]:
+        """All that have their heights measured on the coarsest grid, in parts."""
+        cells = self.grids[0]
+        of_grid = partial(Faces, roughness=self.roughness(hurst, cells), cells=cells)
+        parts = range(0, self.drawn, FACES_AT_ONCE)
+        return [of_grid(first=i, realisations=min(FACES_AT_ONCE, self.drawn - i)) for i in parts]
+
     def springs(self, hurst: float, points: int, length: float, profiles: int) -> Profiles:
         """The first profiles of one Hurst exponent, in a 1D model of length L_1D."""
         return replace(self.profiles_of(self.roughness(hurst), points, length), realisations=profiles)
@@ -143,7 +165,7 @@ def run(case: FractalPunch, engine: Engine = SERIAL) -> Outcomes:
     """Press all surfaces and all profiles with equal forces.
 
     Outcomes by Hurst exponent, method, and cells on a side or springs: rows are realisations, columns are forces, NaN
-    where a realisation was not pressed.
+    where a realisation was not pressed; of `HEIGHTS`, statistics of heights.
     """
     surfaces = {
         (hurst, BEM, cells): [case.surface(hurst, i, cells) for i in range(most)]
@@ -159,7 +181,12 @@ def run(case: FractalPunch, engine: Engine = SERIAL) -> Outcomes:
     }
     bem, springs, unconverged = press(engine, surfaces, profiles, press_lightly)
     placed = {key: at_all_forces(case, surfaces[key], outcome) for key, outcome in bem.items()}
-    return Outcomes(case, {**placed, **springs}, unconverged)
+    faces = {(hurst, HEIGHTS, case.grids[0]): case.faces(hurst) for hurst in case.hursts if case.controlled}
+    heights = {
+        key: {"heights": np.concatenate([part["heights"] for part in parts])}
+        for key, parts in engine.map_groups(measure_faces, faces).items()
+    }
+    return Outcomes(case, {**placed, **springs, **heights}, unconverged)
 
 
 def at_all_forces(case: FractalPunch, surfaces: Sequence[Surface], outcome: Outcome) -> Outcome:
@@ -193,12 +220,17 @@ class PunchStatistics:
     def on_grids(self, name: str, hurst: float, method: str, level: int) -> dict[int, FloatArray]:
         """What each realisation has under one force, on each grid where some were pressed; NaN for the others."""
         columns = {size: outcome[name][:, level] for size, outcome in self.outcomes(hurst, method).items()}
-        most = max(column.size for column in columns.values())
+        most = max(len(self.heights(hurst, method)), *(column.size for column in columns.values()))
         return {
             size: np.pad(column, (0, most - column.size), constant_values=np.nan)
             for size, column in columns.items()
             if np.isfinite(column).any()
         }
+
+    def heights(self, hurst: float, method: str) -> FloatArray:
+        """Statistics of the heights of surfaces on the coarsest grid, one row a realisation; no row without any."""
+        measured = self.result.by_key.get((hurst, HEIGHTS, self.case.grids[0])) if method == BEM else None
+        return measured["heights"] if measured is not None else np.empty((0, 0))
 
     @cached_property
     def _moments(self) -> dict[tuple[float, str, int], dict[int, Moments]]:
@@ -213,14 +245,33 @@ class PunchStatistics:
 
     def steps(self, hurst: float, method: str, statistic: str, level: int) -> dict[int, Linearised]:
         """ln of the mean stiffness, or of the relative deviation, under one force, on each grid."""
-        moments = self._moments[hurst, method, level]
-        logarithm = attrgetter("log_mean" if statistic == MEAN else "log_relative_deviation")
-        return {n: logarithm(of_grid) for n, of_grid in moments.items()}
+        if statistic == MEAN:
+            return self._log_means[hurst, method, level]
+        return {n: of_grid.log_relative_deviation for n, of_grid in self._moments[hurst, method, level].items()}
+
+    @cached_property
+    def _log_means(self) -> dict[tuple[float, str, int], dict[int, Linearised]]:
+        """ln of the mean stiffness on each grid.
+
+        What the mean of the coarsest gains by regression on the heights of more surfaces, all grids gain: the steps
+        between them are as they were.
+        """
+        means = {key: {n: of_grid.mean for n, of_grid in grids.items()} for key, grids in self._moments.items()}
+        for (hurst, method, level), of_grids in means.items():
+            coarsest, heights = next(iter(of_grids)), self.heights(hurst, method)
+            if len(heights) and coarsest == self.case.grids[0]:
+                values = self.on_grids("stiffness", hurst, method, level)[coarsest]
+                gain = regression_mean(values, heights) - of_grids[coarsest]
+                means[hurst, method, level] = {n: mean + gain for n, mean in of_grids.items()}
+        return {key: {n: log(mean) for n, mean in of_grids.items()} for key, of_grids in means.items()}
 
     def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
-        """On cells of no size, or on twice the springs."""
+        """On cells of no size, with what the solver leaves, or on twice the springs."""
         steps = list(self.steps(hurst, method, statistic, level).values())
-        return on_no_size(steps) if method == BEM else on_finest(steps)
+        if method != BEM:
+            return on_finest(steps)
+        resolved = extrapolate_to_zero(steps)
+        return resolved.widened(left_by_solver() if statistic == MEAN else left_by_solver(resolved.value.value))
 
     def ratio(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """Springs over boundary elements; surfaces and profiles are independent.

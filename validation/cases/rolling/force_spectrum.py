@@ -12,16 +12,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.evidence import Place, Role
+from validation.analysis.quantity import MEAN_FORCE, RMS_FORCE
 from validation.analysis.series import REPEATABLE, Counted, Estimates, Margin
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, jackknifed
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.engine.convergence import require_realisations
+from validation.engine.realisations import require_realisations
 from validation.simulation import rolling_strip
-from validation.simulation.model_names import FILTER_3D
-from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
-from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks, level_1d, level_3d, over_bands, strip_levels
-from validation.simulation.roughness_from_force import by_filter_3d, by_mean_filter
+from validation.simulation.model_names import FILTER_3D, SPRINGS_ROLLING
+from validation.simulation.rolling_strip import (
+    HERTZ,
+    RoughStrip,
+    Tracks,
+    by_filter_3d,
+    by_mean_filter,
+    level_1d,
+    level_3d,
+    over_bands,
+    strip_levels,
+)
 from validation.simulation.track_spectrum import (
     INPUT_NAMES,
     INPUT_SPECTRA,
@@ -97,10 +106,11 @@ class ForceSpectrum:
         count = strips if cells == self.cells else min(self.refined, strips)
         return self.rough_strip(height).strips(cells, 1e-4 * height, count)
 
-    def tracks_of(self, height: float) -> Tracks:
+    def tracks_of(self, height: float, model: str) -> Tracks:
+        """On springs, by Geike's rule or with the rolling-equivalent spectrum."""
         return Tracks(
             scene=self.rough_strip(height),
-            input_spectrum="geike",
+            input_spectrum="geike" if model == SPRINGS else "rolling",
             realisations=self.tracks,
             springs=self.springs,
             bands=self.bands,
@@ -112,7 +122,7 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> Outcomes:
     grids = {BEM: case.cells, REFINED: 2 * case.cells}
     groups = {(name, h): case.strips_of(h, cells) for name, cells in grids.items() for h in case.heights}
     strips, unconverged = rolling_strip.roll_strips(groups, engine)
-    tracks = {(SPRINGS, h): case.tracks_of(h) for h in case.heights}
+    tracks = {(model, h): case.tracks_of(h, model) for model in (SPRINGS, SPRINGS_ROLLING) for h in case.heights}
     levels = {(name, h): strip_levels(outcome, 1 / grids[name], case.bands) for (name, h), outcome in strips.items()}
     rolled = dict(zip(tracks, engine.map(rolling_strip.roll_tracks, list(tracks.values())), strict=True))
     return Outcomes(case, {**levels, **rolled}, unconverged)
@@ -175,7 +185,7 @@ def of_bem(
     bem, fine = result[BEM, height], summed(result[REFINED, height]["level"])
     level, linear = (summed(bem[name]) for name in ("level", "linear level"))
     finer = Estimates.ratios(fine, level[: len(fine)])
-    return Estimates.ratios(level, linear).on_no_size(finer), finer
+    return Estimates.ratios(level, linear).extrapolate_to_zero(finer), finer
 
 
 def _curve(result: Outcomes, height: float) -> Iterator[Series]:
@@ -199,7 +209,7 @@ def _curve(result: Outcomes, height: float) -> Iterator[Series]:
     yield decibels(MEAN_LEVEL, f"{SPRINGS} over {MEAN_1D}", over, margin=margin)
     bem, fine = (result[grid, height] for grid in (BEM, REFINED))
     finer = Estimates.ratio(fine["level"], bem["level"][: len(fine["level"])], weights)
-    linear = Estimates.ratio(bem["level"], bem["linear level"], weights).on_no_size(finer)
+    linear = Estimates.ratio(bem["level"], bem["linear level"], weights).extrapolate_to_zero(finer)
     yield decibels(MEAN_LEVEL, UNBOUNDED, (-math.log(level_ratio(case.hurst)),))
     of_band = over_bands(lambda q: filters[1](q, TrackSpectrum(case.spectrum, "geike")), case.bands) / HERTZ**2
     exact = np.log((of_band / level_3d(case.spectrum, case.bands))[short]).mean()
@@ -218,7 +228,8 @@ def levels_on_track(case: ForceSpectrum, spectrum: Callable[..., FloatArray]) ->
 
 def _levels(result: Outcomes, height: float) -> Iterator[Series]:
     """In octaves each model over boundary elements, which are over linear theory on the same surfaces."""
-    case, springs = result.case, result[SPRINGS, height]["level"] / height**2
+    case = result.case
+    springs, rolling = (result[model, height]["level"] / height**2 for model in (SPRINGS, SPRINGS_ROLLING))
     octaves = octaves_of(case.bands, case.spectrum)
 
     def summed(levels: FloatArray) -> FloatArray:
@@ -229,6 +240,7 @@ def _levels(result: Outcomes, height: float) -> Iterator[Series]:
     models = {
         LINEAR_1D: Estimates.exact(np.log(summed(book) / summed(exact))),
         SPRINGS: Estimates.ratios(summed(springs), summed(exact)),
+        SPRINGS_ROLLING: Estimates.ratios(summed(rolling), summed(exact)),
         LINEAR_3D: Estimates.exact(np.zeros(len(octaves))),
     }
     in_decibels = partial(Series, where=at(case, height), along=Q, scale=POWER_DECIBEL, unit="dB")
@@ -261,10 +273,10 @@ def _force(result: Outcomes, height: float) -> Iterator[Series]:
     over = partial(Series, where=at(result.case, height), unit="dB", margin=OF_FORCE)
     of_rms = partial(over, RMS_FORCE, scale=POWER_DECIBEL, grid=finer)
     for model, level in ((SPRINGS, in_1d), (LINEAR_3D, Estimates.exact(0.0, in_3d[0].samples))):
-        yield of_rms(model + OVER, level - in_3d.on_no_size(finer))
+        yield of_rms(model + OVER, level - in_3d.extrapolate_to_zero(finer))
     mean, in_1d = (Estimates.ratios(rows["mean"], np.ones(1)) for rows in (bem, springs))
     finer = Estimates.ratios(fine["mean"], bem["mean"][: len(fine["mean"])])
-    yield over(MEAN_FORCE, SPRINGS + OVER, in_1d - mean.on_no_size(finer), scale=DECIBEL, grid=finer)
+    yield over(MEAN_FORCE, SPRINGS + OVER, in_1d - mean.extrapolate_to_zero(finer), scale=DECIBEL, grid=finer)
 
 
 def _roughness(result: Outcomes, height: float) -> Iterator[Series]:

@@ -15,7 +15,7 @@ from validation.analysis.series import REPEATABLE, Margin
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.cases.rolling.force_spectrum import HEIGHT, SLOPE, SLOPE_COUNTS, Q
-from validation.engine.convergence import require_realisations
+from validation.engine.realisations import require_realisations
 from validation.scenes.description import slope_ratio
 from validation.scenes.load import load_scene_with_track
 from validation.simulation import reduced_models

@@ -12,8 +12,8 @@ from validation.analysis.series import Margin
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.engine import FloatArray
 from validation.simulation.model_names import BEM, FILTER_1D
-from validation.simulation.ridges import BEM as SOLVER
-from validation.simulation.ridges import FILTER, FULL, SPRINGS, RidgesTrack, SuperposedRidges, roll_over
+from validation.simulation.rolling_strip import BEM as SOLVER
+from validation.simulation.rolling_strip import FILTER, FULL, SPRINGS, RidgesTrack, SuperposedRidges, roll_over
 from validation.theory.rolling import response
 
 EDGE = 0.4

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from validation.analysis.claims import Matrix
+from validation.analysis.quantity import MEAN_STIFFNESS
 from validation.analysis.series import Margin
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import Estimate, FloatArray, extrapolated, log_ratio_of_means
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
-from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import Outcome
+from validation.engine.realisations import FEWEST, NotConvergedError, require_realisations
 from validation.simulation import rolling_strip
-from validation.simulation.quantities import MEAN_STIFFNESS
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 

@@ -13,14 +13,13 @@ from validation.analysis.series import MARGINS, Estimates, Margin
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.statistics import Estimate, FloatArray, jackknifed, ratio_of_means
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.cases.wheel import features
-from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
-from validation.engine.convergence import NotConvergedError
+from validation.cases.wheel import ensembles
+from validation.cases.wheel.ensembles import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
 from validation.engine.engine import Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
-from validation.theory.rolling import RollingWheel
-from validation.theory.wheel import break_exponent
+from validation.theory.rolling import RollingWheel, acceleration_over_force, break_exponent, over_the_resonance
 
 SHORT = replace(TABLE, distance=0.16)
 MIN_JUMP, MIN_PERIODS = 4.0, 5.0
@@ -74,11 +73,11 @@ class WheelDistance:
         """
         counts = [round(self.wheels * 2 ** (self.doublings / 2 - i)) for i in range(self.doublings + 1)]
         counts = [max(self.fewest, min(self.wheels, count)) // self.groups * self.groups for count in counts]
-        ensembles = {}
+        problems = {}
         for i, count in reversed(list(enumerate(counts))):
             scene = replace(self.scene, distance=self.periods * self.scene.period_length * 2**i)
-            ensembles["distance", i] = WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed)
-        return ensembles
+            problems["distance", i] = WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed)
+        return problems
 
     def ensemble(self, kind: Kind, height: float = 1.0, short: bool = False) -> WheelEnsemble:
         """A steady state lasts a round; a part of one, and the motion from rest, are recorded over half of it."""
@@ -114,11 +113,9 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> Outcomes:
     ensemble do not converge.
     """
     _check_regions(case.scene)
-    ensembles = case.ensembles()
-    outcomes = dict(zip(ensembles, engine.map(simulate_ensemble, list(ensembles.values())), strict=True))
-    failed = [
-        (ensemble, int(outcomes[key]["failed"])) for key, ensemble in ensembles.items() if outcomes[key]["failed"]
-    ]
+    problems = case.ensembles()
+    outcomes = dict(zip(problems, engine.map(simulate_ensemble, list(problems.values())), strict=True))
+    failed = [(ensemble, int(outcomes[key]["failed"])) for key, ensemble in problems.items() if outcomes[key]["failed"]]
     unconverged = tuple(
         f"{count} of {ensemble.count} wheels do not repeat their motion, h₀ = {ensemble.scene.rms:.3g} m"
         for ensemble, count in failed
@@ -155,6 +152,7 @@ BY_KIND = Quantity("A_by_contact_and_record")
 UP_TO_JUMP = Quantity("A_of_regions_1_and_2")
 SHORT_WAVES = Quantity("A_over_short_waves")
 OVER = Quantity("level_over_the_second_order")
+OF_RESONANCE = Quantity("integral_over_the_resonance_m_s²_²", "integral over the resonance [(m/s²)²]")
 CONTRAST = Quantity("contrast_of_region_2")
 SECOND_ORDER = "second order, closed form"
 H_OVER_D, RECORD, DAMPING, MAXIMUM = "h/d", "record", "damping", "maximum of cos²(q a)"
@@ -179,7 +177,7 @@ class Record(NamedTuple):
 
     def of(self, result: Outcomes, band: tuple[float, float], model: str = "") -> FloatArray:
         """The mean of A in a band, wheel by wheel."""
-        return features.of_groups(result[self.kind._replace(model=model or self.kind.model)], band, self.window)
+        return ensembles.of_groups(result[self.kind._replace(model=model or self.kind.model)], band, self.window)
 
 
 RECORDS = {
@@ -190,7 +188,11 @@ RECORDS = {
     BOOK: Record(FROM_REST),
 }
 """Those without leakage first."""
+UNDEFINED = f"{PERIODIC}, undamped", FIRST
+"""A resonance of no width, of which lines beside it tell nothing but how far off they are."""
 WITHOUT_LEAKAGE = (PERIODIC, f"{PERIODIC}, undamped", HANN)
+WIDTH = 2**0.25
+"""Over the resonance to both sides: where lines of a periodic motion tell the force that excites it."""
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -202,17 +204,20 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     case, rows = result.case, []
     for key, ensemble in reversed(case.distances().items()):
         scene, outcome, distance = ensemble.scene, result[key], ensemble.steps * ensemble.scene.spacing
-        spectrum = features.Spectrum.of(scene, [outcome])
-        measured, by_jumps = features.measured(spectrum)[features.BREAK], features.expected(spectrum)[features.BREAK]
+        spectrum = ensembles.Spectrum.of(scene, [outcome])
+        measured, by_jumps = (
+            ensembles.measured(spectrum)[ensembles.BREAK],
+            ensembles.expected(spectrum)[ensembles.BREAK],
+        )
         low, high = 1.5 * float(outcome["omega"][0]), 1.6 * scene.cutoff
-        omega, density = features.in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
+        omega, density = ensembles.in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
         spectra = partial(density_of, SPECTRA, where={DISTANCE: round(distance, 3)})
         yield spectra("spectrum", density, at=omega)
         at_break = math.exp(np.interp(np.log(measured.value), np.log(omega), np.log(density)))
         yield spectra("break", (at_break,), at=(measured.value,))
         rows.append((spectrum.duration, by_jumps, measured))
     t, predicted, breaks = zip(*rows, strict=True)
-    law = break_exponent(features.hurst(case.scene))
+    law = break_exponent(ensembles.hurst(case.scene))
     middle = math.exp(np.mean(np.log(Estimates(breaks).values) - law * np.log(t)))
     by_duration = partial(Series, BREAK_AT, along=DURATION, at=t)
     yield by_duration("found", breaks)
@@ -233,14 +238,16 @@ def law_of_break(t: FloatArray, breaks: Estimates) -> Estimate:
 def _regions(result: Outcomes) -> Iterator[Series]:
     """Spectra and levels of every record; what a linear contact has of regions 1 and 2; what is left of region 4."""
     scene = result.case.scene
-    bands = features.regions_of(scene)
+    bands = ensembles.regions_of(scene)
     for name, record in RECORDS.items():
         for model in (SPRINGS, LINEAR):
             outcome = result[record.kind._replace(model=model)]
             mean, ends = outcome[record.window].mean(axis=0), (0.5 * scene.eigenfrequency, 4 * scene.cutoff)
-            omega, density = features.in_sixths(outcome["omega"], mean, *ends)
+            omega, density = ensembles.in_sixths(outcome["omega"], mean, *ends)
             yield density_of(BY_KIND, f"{model}, {name}", density, at=omega)
         for region, band in bands.items():
+            if (name, region) == UNDEFINED:
+                continue
             for model in (SPRINGS, LINEAR):
                 level = Estimates.ratios(record.of(result, band, model), np.ones(1))
                 yield decibels(OF_REGION, model, level, where={RECORD: name, "region": region})
@@ -248,6 +255,8 @@ def _regions(result: Outcomes) -> Iterator[Series]:
     for name in WITHOUT_LEAKAGE:
         record = RECORDS[name]
         for region in (FIRST, PLATEAU):
+            if (name, region) == UNDEFINED:
+                continue
             linear, of_springs = (record.of(result, bands[region], model) for model in (LINEAR, SPRINGS))
             # of a linear contact that repeats its motion nothing can be elsewhere
             margin = OF_SHARE if name == HANN else replace(OF_SHARE, role=Role.IDENTITY)
@@ -267,35 +276,60 @@ def second_order(scene: RollingScene, omega: FloatArray) -> FloatArray:
     """A of the second order below the jump; zero from there on."""
     density, inside = np.zeros(omega.size), omega < scene.jump
     q_max = scene.cutoff / scene.rolling_speed
-    density[inside] = theory_of(scene).acceleration(omega[inside], features.roughness(scene), q_max=q_max)
+    density[inside] = theory_of(scene).acceleration(omega[inside], ensembles.roughness(scene), q_max=q_max)
     return density
 
 
 def _second_order(result: Outcomes) -> Iterator[Series]:
-    """Contrast of region 2 over short waves; regions 1 and 2 by height, and without damping; spectra up to the jump."""
+    """Contrast of region 2 over short waves; regions 1 and 2 by height, 2 without damping too; spectra to the jump."""
     case = result.case
     yield from _contrasts(case.ensemble(STEADY, short=True).scene, result["short waves"])
     steady = [(case.ensemble(STEADY, h), result[STEADY if h == 1 else (STEADY, h)]) for h in case.heights]
+    family = 2 * len(steady) + 2
+    for ensemble, outcome in steady:
+        yield from _resonance(ensemble.scene, outcome, family)
     for ensemble, outcome in (*steady, (case.ensemble(UNDAMPED), result[UNDAMPED])):
-        yield from _over_second_order(ensemble.scene, outcome, 2 * len(steady) + 3)
+        yield from _over_second_order(ensemble.scene, outcome, family)
+
+
+def _resonance(scene: RollingScene, outcome: Outcome, family: int) -> Iterator[Series]:
+    """Region 1, an integral over the resonance: of springs by the force that its lines tell, and in closed form.
+
+    A periodic motion has lines, of which none may be on the resonance: A over the gain of each is the spectrum of the
+    force, which is level over the resonance, and its integral is that through the whole of the resonance.
+    """
+    omega, same = outcome["omega"], {name: getattr(scene, name) for name in ("eigenfrequency", "mass", "damping")}
+    near = np.abs(np.log(omega / scene.eigenfrequency)) < math.log(WIDTH)
+    force = (outcome["plain"][:, near] / acceleration_over_force(omega[near], **same)).mean(axis=1)
+    q_max = scene.cutoff / scene.rolling_speed
+    theory = theory_of(scene).over_resonance(ensembles.roughness(scene), q_max=q_max)
+    region = {"region": FIRST, DAMPING: _damping_of(scene), **at_height(scene)}
+    level = Estimates.ratios(force * over_the_resonance(**same), np.full(1, theory))
+    yield decibels(OVER, f"{SPRINGS}, integral", level, where=region, family=family, margin=OF_SECOND_ORDER)
+    for model, value in ((SPRINGS, float(force.mean()) * over_the_resonance(**same)), (SECOND_ORDER, theory)):
+        yield Series(OF_RESONANCE, model, (value,), where=region)
+
+
+def _damping_of(scene: RollingScene) -> str:
+    return f"{100 * scene.damping:g} % of critical" if scene.damping else "none"
 
 
 def _over_second_order(scene: RollingScene, outcome: Outcome, family: int) -> Iterator[Series]:
-    omega, bands = outcome["omega"], features.regions_of(scene)
+    omega, bands = outcome["omega"], ensembles.regions_of(scene)
     theory, place = second_order(scene, omega), at_height(scene)
-    damping = {DAMPING: f"{100 * scene.damping:g} % of critical" if scene.damping else "none"}
-    for region, edges in ((FIRST, np.array(bands[FIRST])), (PLATEAU, one_third_octaves(*bands[PLATEAU]))):
-        levels, reference = band_levels(omega, outcome["plain"].T, edges).T, band_levels(omega, theory, edges)
-        yield decibels(
-            OVER,
-            SPRINGS,
-            Estimates.ratios(levels, reference),
-            where={"region": region, **damping, **place},
-            along=features.OMEGA,
-            at=np.sqrt(edges[1:] * edges[:-1]),
-            family=family,
-            margin=OF_SECOND_ORDER,
-        )
+    damping = {DAMPING: _damping_of(scene)}
+    edges = one_third_octaves(*bands[PLATEAU])
+    levels, reference = band_levels(omega, outcome["plain"].T, edges).T, band_levels(omega, theory, edges)
+    yield decibels(
+        OVER,
+        SPRINGS,
+        Estimates.ratios(levels, reference),
+        where={"region": PLATEAU, **damping, **place},
+        along=ensembles.OMEGA,
+        at=np.sqrt(edges[1:] * edges[:-1]),
+        family=family,
+        margin=OF_SECOND_ORDER,
+    )
     lines = omega[omega < 0.99 * scene.jump]
     drawn = partial(density_of, UP_TO_JUMP, where={**damping, **place}, at=lines)
     yield drawn(SPRINGS, outcome["plain"].mean(axis=0)[: lines.size])
@@ -311,7 +345,7 @@ def _contrasts(scene: RollingScene, outcome: Outcome) -> Iterator[Series]:
     omega, at, theory = outcome["omega"], maxima_of(scene), second_order(scene, outcome["omega"])
 
     def contrasts(groups: FloatArray) -> FloatArray:
-        return -features.log_beside_over_at(omega / scene.oscillation_period, groups.mean(axis=0) * omega**2, at)
+        return -ensembles.log_beside_over_at(omega / scene.oscillation_period, groups.mean(axis=0) * omega**2, at)
 
     yield decibels(
         CONTRAST,
@@ -331,5 +365,5 @@ def _contrasts(scene: RollingScene, outcome: Outcome) -> Iterator[Series]:
 
 def maxima_of(scene: RollingScene) -> FloatArray:
     """The numbers n of the maxima q a = n pi of cos²(q a) that have both of their zeros in region 2."""
-    last = features.regions_of(scene)[PLATEAU][1]
+    last = ensembles.regions_of(scene)[PLATEAU][1]
     return np.arange(1.0, math.floor(last / scene.oscillation_period - 0.5) + 1)

@@ -11,14 +11,14 @@ from validation.analysis.evidence import Role
 from validation.analysis.series import MARGINS, Estimates, Margin, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.cases.wheel import features
-from validation.cases.wheel.features import TABLE, decibels
-from validation.engine.convergence import NotConvergedError
+from validation.cases.wheel import ensembles
+from validation.cases.wheel.ensembles import TABLE, decibels
 from validation.engine.engine import Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.simulation import wheel_features
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
-from validation.theory import wheel as wheel_theory
+from validation.theory import rolling as wheel_theory
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +62,7 @@ class WheelSpectrum:
 
 def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
     """Simulate all wheels of all variations."""
-    features.hurst(case.scene)  # which a smooth one has not
+    ensembles.hurst(case.scene)  # which a smooth one has not
     batches = engine.map_groups(simulate_ensemble, case.batches())
     failed = [name for name, group in batches.items() if any(batch["failed"] for batch in group)]
     if failed:
@@ -90,13 +90,13 @@ PARAMETER = "parameter"
 NO_WINDOW, HANN, LINEAR = "no window, (14.17)", "Hann's window", "linear theory"
 LOWEST, HIGHEST, PREDICTED_FLOOR = "lowest tenth of wheels", "highest tenth of wheels", "floor predicted"
 SOURCES = {
-    features.PEAK: "sqrt(2 a E* / M)",
-    features.JUMP: "q_min v₀, (14.20)",
-    features.SLOPE: "-2 H - 3, (14.13)",
-    features.PERIOD: "π v₀ / a, (14.12)",
+    ensembles.PEAK: "sqrt(2 a E* / M)",
+    ensembles.JUMP: "q_min v₀, (14.20)",
+    ensembles.SLOPE: "-2 H - 3, (14.13)",
+    ensembles.PERIOD: "π v₀ / a, (14.12)",
 }
 """Of the features that are judged."""
-OF_PARAMETERS = features.PEAK, features.JUMP
+OF_PARAMETERS = ensembles.PEAK, ensembles.JUMP
 """Of these what the book says that no parameter changes."""
 CHANGED, NOTHING = "changed", "unchanged"
 BANDS_PER_PERIOD = 12
@@ -120,9 +120,9 @@ def series(result: Outcomes) -> list[Series]:
     ]
 
 
-def spectra_of(result: Outcomes) -> dict[str, features.Spectrum]:
+def spectra_of(result: Outcomes) -> dict[str, ensembles.Spectrum]:
     """Of the scene itself first."""
-    return {name: features.Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
+    return {name: ensembles.Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
 
 
 def family_of(case: WheelSpectrum) -> int:
@@ -140,30 +140,30 @@ def features_by_scene(result: Outcomes) -> list[Series]:
             (values[key],),
             where={"scene": case.scene.name, CHANGED: NOTHING if name == case.scene.name else name},
             reference=theory[key],
-            grid=float(spectrum.omega[0]) / 2 if key == features.JUMP else 0.0,
-            unit="-" if key == features.SLOPE else "rad/s",
+            grid=float(spectrum.omega[0]) / 2 if key == ensembles.JUMP else 0.0,
+            unit="-" if key == ensembles.SLOPE else "rad/s",
             margin=MARGINS[key].with_source(SOURCES[key]),
             family=family,
         )
         for name, spectrum in spectra_of(result).items()
-        for values, theory in [(features.measured(spectrum), features.expected(spectrum))]
-        for key, quantity in features.QUANTITIES.items()
+        for values, theory in [(ensembles.measured(spectrum), ensembles.expected(spectrum))]
+        for key, quantity in ensembles.QUANTITIES.items()
         if key in values
     ]
 
 
-def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
+def levels_over_linear(spectrum: ensembles.Spectrum) -> list[Series]:
     """One-third octaves of region 3 over (14.12) through the resonator, up to where the floor is far below."""
     scene, omega = spectrum.scene, spectrum.omega
     first = max(1.2 * scene.jump, wheel_features.FREE_MASS * scene.eigenfrequency)
-    last = min(0.7 * features.expected(spectrum)[features.BREAK], 0.9 * scene.cutoff)
+    last = min(0.7 * ensembles.expected(spectrum)[ensembles.BREAK], 0.9 * scene.cutoff)
     edges = one_third_octaves(first, last) if first < last else np.empty(0)
     if edges.size < 2:
         return []
     levels = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
     centres = np.sqrt(edges[1:] * edges[:-1])
-    place: Where = {"region": features.THIRD}
-    over = partial(decibels, features.LEVEL, "springs over linear theory", where=place, along=features.OMEGA)
+    place: Where = {"region": ensembles.THIRD}
+    over = partial(decibels, ensembles.LEVEL, "springs over linear theory", where=place, along=ensembles.OMEGA)
     return [over(levels, at=centres, margin=OVER_LINEAR)]
 
 
@@ -178,9 +178,14 @@ def _identities(batches: list[Outcome]) -> Iterator[Series]:
     )
 
 
-def _curves(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Series]:
+def _curves(spectrum: ensembles.Spectrum, batches: list[Outcome]) -> Iterator[Series]:
     """Fig. 14.4 in twelfths of an octave, with the spread over wheels; region 3 over the power law of its level."""
-    scene, omega, theory, edges = spectrum.scene, spectrum.omega, features.expected(spectrum), batches[0]["bands"]
+    scene, omega, theory, edges = (
+        spectrum.scene,
+        spectrum.omega,
+        ensembles.expected(spectrum),
+        batches[0]["bands"],
+    )
     of_wheels, centres = np.concatenate([batch["levels"] for batch in batches], axis=1), np.sqrt(edges[1:] * edges[:-1])
     # linear theory has nothing below the jump, and is infinite at the resonance
     linear = {part: np.where(omega < part * scene.jump, 0.0, spectrum.linear) for part in (0.9, 0.5)}
@@ -194,20 +199,20 @@ def _curves(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Ser
         LINEAR: band_means(omega, linear[0.9], edges),
         PREDICTED_FLOOR: floor,
     }.items():
-        yield features.density_of(SPECTRUM, model, values, at=centres)
-    width = max(theory[features.PERIOD] / BANDS_PER_PERIOD, omega[0])
-    bands, law = np.arange(0.9 * scene.jump, 1.1 * scene.cutoff, width), omega ** theory[features.SLOPE]
+        yield ensembles.density_of(SPECTRUM, model, values, at=centres)
+    width = max(theory[ensembles.PERIOD] / BANDS_PER_PERIOD, omega[0])
+    bands, law = np.arange(0.9 * scene.jump, 1.1 * scene.cutoff, width), omega ** theory[ensembles.SLOPE]
     mean = float(np.mean((linear[0.5] / law)[(omega > scene.jump) & (omega < scene.cutoff)]))
     for model, density in {NO_WINDOW: spectrum.plain.mean(axis=0), HANN: hann, LINEAR: linear[0.5]}.items():
         over = band_means(omega, density / law, bands) / mean
-        yield Series(OSCILLATION, model, over, along=features.OMEGA, at=(bands[1:] + bands[:-1]) / 2)
-    marks = scene.eigenfrequency, scene.jump, theory[features.BREAK], scene.cutoff
+        yield Series(OSCILLATION, model, over, along=ensembles.OMEGA, at=(bands[1:] + bands[:-1]) / 2)
+    marks = scene.eigenfrequency, scene.jump, theory[ensembles.BREAK], scene.cutoff
     for name, at in zip(("ω_eigen", "q_min v₀", "break", "q_max v₀"), marks, strict=True):
         yield Series(MARKS, name, (at,))
 
 
-def _in_sixths(name: str, spectrum: features.Spectrum) -> Series:
+def _in_sixths(name: str, spectrum: ensembles.Spectrum) -> Series:
     low, high = float(spectrum.omega[2]), 1.5 * spectrum.scene.cutoff
-    omega, density = features.in_sixths(spectrum.omega, spectrum.plain.mean(axis=0), low, high)
+    omega, density = ensembles.in_sixths(spectrum.omega, spectrum.plain.mean(axis=0), low, high)
     where = {PARAMETER: name.split(" ")[0], "scene": name}
-    return features.density_of(VARIED, "springs", density, where=where, at=omega)
+    return ensembles.density_of(VARIED, "springs", density, where=where, at=omega)

@@ -10,8 +10,8 @@ from validation.analysis.claim_text import NOT_THIS_CURVE
 from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Table, Whose
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
-from validation.cases.wheel import features, spectrum
-from validation.cases.wheel.features import DENSITY, OMEGA, QUANTITIES, TABLE
+from validation.cases.wheel import ensembles, spectrum
+from validation.cases.wheel.ensembles import DENSITY, OMEGA, QUANTITIES, TABLE
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
 from validation.simulation import model_needed, wheel_features
@@ -109,7 +109,7 @@ STUDY = Study(
         Claim(
             whose=Whose.BOOK,
             no=NOT_THIS_CURVE,
-            quantity=tuple(QUANTITIES[key] for key in (features.SLOPE, features.PERIOD)),
+            quantity=tuple(QUANTITIES[key] for key in (ensembles.SLOPE, ensembles.PERIOD)),
             where={spectrum.CHANGED: spectrum.NOTHING},
         ).saying(
             "Region 3 of Fig. 14.4 follows ω^(-2H-3) sin²(ω a / v₀).",

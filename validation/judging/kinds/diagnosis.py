@@ -6,21 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from validation.analysis.evidence import where_text
+from validation.analysis.evidence import Verdict, where_text
 from validation.analysis.statistics import FloatArray
-from validation.analysis.verdict import Verdict
-from validation.judging.judgement import (
-    AGAIN,
-    DEVIATION,
-    LEVEL,
-    WITHOUT_NUMBER,
-    Conditions,
-    JudgedNumber,
-)
-from validation.judging.kinds.filters import ALPHA, FILTER, WAVE
-from validation.judging.kinds.held_out_solves import SUFFIX
+from validation.judging.judgement import AGAIN, DEVIATION, LEVEL, WITHOUT_NUMBER, Conditions, JudgedNumber
+from validation.judging.kinds.held_out_points import SUFFIX
 from validation.judging.kinds.profiles import MOMENTS
-from validation.judging.kinds.rolling import APART, HEIGHT, MEAN, SLOPE, Q
+from validation.judging.kinds.rolling import ALPHA, APART, FILTER, HEIGHT, MEAN, SLOPE, WAVE, Q
 from validation.judging.kinds.stiffness import BY_BAND, DIFFERENT_DRAWS, EQUAL_DRAWS, FORCE
 from validation.judging.kinds.stiffness import DEVIATION as OF_STIFFNESS
 
@@ -251,9 +242,8 @@ def _of_moments(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     ratios = np.array([max(1 + point.difference, 0.0) ** n for point, n in zip(moments, power, strict=True)])
     common = common_factor(ratios, np.full(len(moments), SPARE)) if moments and ratios.min() > 0 else None
     if common and common.kept == len(moments):
-        cause = named(common.factor, common.half, OF_POWERS)
         sentence = f"All moments of the profile are {common.factor:.3g} times those of the surface"
-        yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
+        yield _factor_remark("a factor everywhere", sentence, common, OF_POWERS)
 
 
 def _columns(points: Sequence[JudgedNumber]) -> tuple[FloatArray, FloatArray]:
@@ -264,9 +254,8 @@ def _of_values(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
     positive = [point for point in points if point.difference > -1]
     difference, error = _columns(positive)
     if len(positive) == len(points) and (common := common_factor(1 + difference, error / (1 + difference))):
-        cause = named(common.factor, common.half, OF_VALUES)
-        sentence = f"{_subject(common.kept, len(points), points, where)} {common.factor:.3g} times the reference"
-        yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
+        sentence = f"{_subject(common.kept, points, where)} {common.factor:.3g} times the reference"
+        yield _factor_remark("a factor everywhere", sentence, common, OF_VALUES)
 
 
 def _of_levels(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
@@ -274,10 +263,10 @@ def _of_levels(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
     difference, error = _columns(points)
     in_power = math.log(10) / 10
     if common := common_factor(np.exp(in_power * difference), in_power * error):
-        cause, shift = named(common.factor, common.half, OF_POWERS), 10 * math.log10(common.factor)
+        shift = 10 * math.log10(common.factor)
         side = "above" if shift > 0 else "below"
-        sentence = f"{_subject(common.kept, len(points), points, where)} {abs(shift):.2f} dB {side} the reference"
-        yield Remark("a shift everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
+        sentence = f"{_subject(common.kept, points, where)} {abs(shift):.2f} dB {side} the reference"
+        yield _factor_remark("a shift everywhere", sentence, common, OF_POWERS)
         return
     yield from _of_squares(points)
 
@@ -292,12 +281,17 @@ def _of_squares(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
         # the mean of a power over a band is a little more than the power of the mean
         kept = np.abs(difference - (times - 1) * reference) <= error + SQUARED * (1 + np.abs(reference))
         if kept.mean() > MOST_OF:
-            sentence = (
-                f"{_subject(int(kept.sum()), len(ridges), ridges, ' over ridges')} {times:g} times the reference in dB"
-            )
+            sentence = f"{_subject(int(kept.sum()), ridges, ' over ridges')} {times:g} times the reference in dB"
             yield Remark("levels of a power of the amplitude", f"{sentence}: {cause}?")
 
 
-def _subject(kept: int, count: int, points: Sequence[JudgedNumber], where: str) -> str:
+def _factor_remark(remark: str, sentence: str, common: CommonFactor, names: Mapping[str, float]) -> Remark:
+    """The sentence, with what the factor may come from as a question."""
+    cause = named(common.factor, common.half, names)
+    return Remark(remark, f"{sentence}: {cause}?" if cause else f"{sentence}.")
+
+
+def _subject(kept: int, points: Sequence[JudgedNumber], where: str) -> str:
     quantities = " and ".join(dict.fromkeys(point.quantity.removesuffix(SUFFIX) for point in points))
+    count = len(points)
     return f"{'All' if kept == count else f'{kept} of'} {count} points of its {quantities}{where} are"

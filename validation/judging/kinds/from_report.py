@@ -18,16 +18,17 @@ from scipy.special import erfinv
 import bem3d
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.statistics import DECIBEL
-from validation.cases.wheel import features
+from validation.cases.punch.interface import Interface
+from validation.cases.wheel import ensembles
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.judging.judgement import DEVIATION
-from validation.judging.kinds import held_out_solves, own, rolling, stiffness, surfaces
-from validation.judging.kinds.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
-from validation.judging.kinds.held_out_solves import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
+from validation.judging.kinds import held_out_points, interfaces, own, rolling, stiffness
+from validation.judging.kinds.held_out_points import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
+from validation.judging.kinds.interfaces import CONTACT
 from validation.judging.kinds.laws import FEATURE, REGION, by_region
 from validation.judging.kinds.references import Reference, as_file, file_name, rows_of
-from validation.judging.kinds.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
+from validation.judging.kinds.rolling import ALPHA, DIAMETER, FILTER, HEIGHT, LOAD, OFFSET, SLOPE, WAVE, Q
 from validation.judging.kinds.stiffness import BAND, FORCE, ROLL_OFF, H
 from validation.scenes.load import load_scene_with_track
 from validation.simulation.model_names import BEM, FILTER_3D, SPRINGS
@@ -46,10 +47,9 @@ from validation.simulation.track_spectrum import PiecewisePowerLaw
 Row = Mapping[str, Any]
 Find = Callable[["Report", Engine], Iterable[Reference]]
 SPRINGS_OVER = f"{SPRINGS} over {BEM}"
-CONTACT = "contact in Persson's theory [%]"
 TENTH = 1.2816
 """Of a Gaussian, its deviations to the highest tenth."""
-FEATURES = tuple(features.QUANTITIES.values())
+FEATURES = tuple(ensembles.QUANTITIES.values())
 
 
 @dataclass(frozen=True)
@@ -141,6 +141,25 @@ def _rolled_off(report: Report, _: Engine) -> Iterator[Reference]:
         yield replace(row, where={H: hurst, ROLL_OFF: float(waves), FORCE: force}, value=force * row.value)
 
 
+def _interface(quantity: str) -> Find:
+    return lambda report, _: report.references("interface", quantity, ROLL_OFF, H, CONTACT)
+
+
+def _areas(report: Report, _: Engine) -> Iterator[Reference]:
+    """A / L^2, of which the report has A E* g / (L^2 p) with the rms gradient g of the drawn surfaces."""
+    settings = report.settings("interface")
+    case = Interface(**{name: _frozen(value) for name, value in settings.items()})
+    for row in report.references("interface", "A_E_g_over_p", ROLL_OFF, H, CONTACT):
+        ground, load = (round(row[ROLL_OFF]), row[H]), case.per_cent.index(row[CONTACT])
+        pressure = case.height * float(case.pressures(ground)[load])
+        yield replace(row, value=row.value * pressure / case.drawn(ground).gradient)
+
+
+def _frozen(value: Any) -> Any:
+    """Lists of JSON as the tuples that they were."""
+    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+
+
 def _by_band(report: Report, _: Engine) -> Iterator[Reference]:
     """But for the band of Fig. 14.1."""
     rows = report.references("bandwidth", "relative_deviation", H, FORCE, BAND)
@@ -149,13 +168,13 @@ def _by_band(report: Report, _: Engine) -> Iterator[Reference]:
 
 def _levels(report: Report, _: Engine) -> Iterator[Reference]:
     """Of octaves."""
-    bands = bands_of(settings := report.settings("rolling"))
-    exact = level_3d(spectrum_of(settings), bands)
+    bands = rolling.bands_of(settings := report.settings("rolling"))
+    exact = level_3d(rolling.spectrum_of(settings), bands)
     return _over_linear(report, "level_of_an_octave", lambda row: float(rolling.octave(exact, bands, row[Q])), Q)
 
 
 def _rms(report: Report, _: Engine) -> Iterator[Reference]:
-    variance = rolling.variance_of(spectrum_of(report.settings("rolling")))
+    variance = rolling.variance_of(rolling.spectrum_of(report.settings("rolling")))
     return _over_linear(report, "rms_force", lambda row: variance)
 
 
@@ -169,8 +188,8 @@ def _over_linear(report: Report, quantity: str, power: Callable[[Row], float], *
 def _mean(report: Report, engine: Engine) -> Iterator[Reference]:
     """The springs of the case over what they are over boundary elements."""
     settings, rows = report.settings("rolling"), report.rows("rolling", "mean_force", model=SPRINGS_OVER)
-    of = {"spectrum": spectrum_of(settings), **{name: settings[name] for name in ("length", "width", "seed")}}
-    how = {"realisations": settings["tracks"], "springs": settings["springs"], "bands": bands_of(settings)}
+    of = {"spectrum": rolling.spectrum_of(settings), **{name: settings[name] for name in ("length", "width", "seed")}}
+    how = {"realisations": settings["tracks"], "springs": settings["springs"], "bands": rolling.bands_of(settings)}
     tracks = [Tracks(scene=RoughStrip(height=row[HEIGHT], **of), input_spectrum="geike", **how) for row in rows]
     for row, springs in zip(rows, engine.map(roll_tracks, tracks), strict=True):
         value = float(springs["mean"].mean()) / 10 ** (row["value"] / 20)
@@ -189,10 +208,10 @@ def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Find:
     """See `rolling.at_positions`."""
 
     def find(_: Report, engine: Engine) -> Iterator[Reference]:
-        problems = {(h, n): rolling.strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
+        problems = {(h, n): rolling.strip_of(h).strips(n, 1e-4 * h, 1) for h in rolling.HEIGHTS for n in rolling.GRIDS}
         on = {key: outcomes[0][name] for key, outcomes in engine.map_groups(solve, problems).items()}
-        for h in HEIGHTS:
-            yield from rolling.at_positions({HEIGHT: h}, *(on[h, cells] for cells in GRIDS))
+        for h in rolling.HEIGHTS:
+            yield from rolling.at_positions({HEIGHT: h}, *(on[h, cells] for cells in rolling.GRIDS))
 
     return find
 
@@ -225,33 +244,39 @@ def _regions(report: Report, _: Engine) -> Iterator[Reference]:
     return (Reference({"region": name}, levels[name], halves[name]) for name in levels)
 
 
-OF_STRIPS = {"heights": HEIGHTS, "cells": GRIDS, "length": rolling.ALONG, "width": rolling.ACROSS, "seed": rolling.SEED}
-OF_SURFACES = {name: getattr(surfaces, name.upper()) for name in ("hursts", "surfaces", "cells", "seed", "tolerance")}
+OF_STRIPS = {
+    "heights": rolling.HEIGHTS,
+    "cells": rolling.GRIDS,
+    "length": rolling.ALONG,
+    "width": rolling.ACROSS,
+    "seed": rolling.SEED,
+}
+OF_SURFACES = {name: getattr(stiffness, name.upper()) for name in ("hursts", "surfaces", "cells", "seed", "tolerance")}
 _file, _UNIT = ReferenceFile, "dB, over F_Hertz^2 (h/d)^2"
 
 
-def _solved(solve: held_out_solves.Solve) -> Find:
+def _solved(solve: held_out_points.Solve) -> Find:
     """Without a report."""
     return lambda report, engine: solve(engine)
 
 
 HELD_OUT: Mapping[str, ReferenceFile] = {
-    held_out(stiffness.MEAN): _file("k / (E* L)", "judging/held out", _solved(held_out_solves.pressed), OF_PUNCHES),
-    held_out(surfaces.OF_SURFACE): _file("k / (E* L)", "judging/held out", _solved(held_out_solves.faces), OF_FACES),
+    held_out(stiffness.MEAN): _file("k / (E* L)", "judging/held out", _solved(held_out_points.pressed), OF_PUNCHES),
+    held_out(stiffness.OF_SURFACE): _file("k / (E* L)", "judging/held out", _solved(held_out_points.faces), OF_FACES),
     held_out(rolling.LEVEL): _file(
         f"{_UNIT}, of an octave",
         "judging/held out",
-        _solved(held_out_solves.of_octaves),
-        held_out_solves.OF_STRIPS,
+        _solved(held_out_points.of_octaves),
+        held_out_points.OF_STRIPS,
     ),
     held_out(rolling.RMS): _file(
-        _UNIT, "judging/held out", _solved(held_out_solves.of_variance), held_out_solves.OF_STRIPS
+        _UNIT, "judging/held out", _solved(held_out_points.of_variance), held_out_points.OF_STRIPS
     ),
     held_out(rolling.EACH): _file(
-        "over F_Hertz", "judging/held out", _solved(held_out_solves.at_positions(by_load=False)), OF_POSITIONS
+        "over F_Hertz", "judging/held out", _solved(held_out_points.at_positions(by_load=False)), OF_POSITIONS
     ),
     held_out(rolling.LIFT): _file(
-        "over d", "judging/held out", _solved(held_out_solves.at_positions(by_load=True)), OF_POSITIONS
+        "over d", "judging/held out", _solved(held_out_points.at_positions(by_load=True)), OF_POSITIONS
     ),
 }
 """Between and beside the tables."""
@@ -260,16 +285,16 @@ SOURCES: Mapping[str, ReferenceFile] = {
     stiffness.DEVIATION: _file(DEVIATION, "fractal_punch", _punch("relative_deviation_of_k", "relative_deviation")),
     stiffness.ROLLED_OFF: _file("k / (E* L)", "interface", _rolled_off),
     stiffness.BY_BAND: _file(DEVIATION, "bandwidth", _by_band),
-    "stiffness of an interface": _file(
-        "K h / p", "interface", lambda report, _: report.references("interface", "K_h_over_p", ROLL_OFF, H, CONTACT)
-    ),
+    interfaces.STIFFNESS: _file("K h / p", "interface", _interface("K_h_over_p")),
+    interfaces.GAP: _file("u / h", "interface", _interface("mean_gap_over_h")),
+    interfaces.AREA: _file("A / L²", "interface", _areas),
     rolling.LEVEL: _file(f"{_UNIT}, of an octave", "rolling", _levels),
     rolling.RMS: _file(_UNIT, "rolling", _rms),
     rolling.MEAN: _file("over F_Hertz", "rolling", _mean),
     rolling.EACH: _file("over F_Hertz", "judging/rolling", _positions("force", roll_strip), OF_STRIPS),
     rolling.LIFT: _file("over d", "judging/rolling", _positions("approach", roll_under_load), OF_STRIPS),
-    surfaces.OF_SURFACE: _file(
-        "k / (E* L)", "judging/surfaces", lambda _, engine: surfaces.solved(engine), OF_SURFACES
+    stiffness.OF_SURFACE: _file(
+        "k / (E* L)", "judging/surfaces", lambda _, engine: stiffness.solved_surfaces(engine), OF_SURFACES
     ),
     FILTER: _file("dB, A3", "across", _filters),
     FEATURE: _file("rad/s, but for the slope", "wheel", _features),

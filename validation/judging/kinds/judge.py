@@ -11,8 +11,9 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from validation.analysis.evidence import Verdict
 from validation.analysis.statistics import Estimate, FloatArray
-from validation.analysis.verdict import Verdict
+from validation.engine.engine import identity
 from validation.judging.judgement import AGAIN, LEVEL, RATIO, Conditions, JudgedNumber, judged_number, missing_number
 from validation.judging.kinds.references import Reference
 from validation.judging.registry import Caller, Failed, Offered
@@ -48,7 +49,7 @@ class Recorded(Caller):
     """The first answer to each problem; problems that were asked twice, with both answers, where these differ."""
 
     @property
-    def offered(self) -> Offered:  # type: ignore[override]  # is read alone
+    def offered(self) -> Offered[..., Any]:  # type: ignore[override]  # is read alone
         return self.model.offered
 
     @property
@@ -91,7 +92,8 @@ def digest_of(arguments: Mapping[str, Any]) -> bytes:
     for name, value in sorted(arguments.items()):
         state = value.bit_generator.state if isinstance(value, np.random.Generator) else value
         digest.update(name.encode())
-        digest.update(np.ascontiguousarray(state).tobytes() if isinstance(state, np.ndarray) else repr(state).encode())
+        is_array = isinstance(state, np.ndarray)
+        digest.update(np.ascontiguousarray(state).tobytes() if is_array else identity(state).encode())
     return digest.digest()
 
 
@@ -168,11 +170,12 @@ def change(before: FloatArray, after: FloatArray) -> float:
 T = TypeVar("T")
 JUDGES: Mapping[str, str] = {
     "stiffness_model": "stiffness:judged",
-    "stiffness_of_surface": "surfaces:judged",
+    "stiffness_of_surface": "stiffness:judged_surfaces",
     "force_spectrum": "rolling:judged_spectrum",
     "rolling_model": "rolling:judged",
-    "contact_filter": "filters:judged",
+    "contact_filter": "rolling:judged_filter",
     "profile_spectrum": "profiles:judged",
+    "interface_model": "interfaces:judged",
     "contact_law": "laws:judged",
 }
 """Module beside this one, and its function, by the decorator; a contact solver is judged among the benchmarks."""
@@ -240,7 +243,7 @@ def rule(quantity: str, where: Conditions, answer: Answer, grid: float = 0.0, wi
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedNumber]:
     """Of a reduced model: by its judge, at held-out points, by rules of scaling, past these scenes, and once again."""
     recorded = Recorded(model)
-    for place in (JUDGES[model.kind], "held_out_points:judged", "scaling:judged", "sweeps:swept"):
+    for place in (JUDGES[model.kind], "held_out_points:judged", "properties:judged_scaling", "properties:swept"):
         judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{place}")
         yield from (finding.judged(tolerance) for finding in judge(recorded))
     calls = float(recorded.count)

@@ -56,7 +56,12 @@ def judged(model: Caller) -> Iterator[Finding]:
 
 
 def _model_answer(row: Reference, value: float, half: float, records: float) -> ModelAnswer:
-    """With the error of as many independent records: wheels on equal pieces of a track count as one."""
+    """The value of a feature with its half-width of 95 %, relative to the value unless the row is a level.
+
+    records: independent ones among the wheels, of which those on equal pieces of a track count as one. Of fewer than
+    the wheels a reason says so. Of fewer than `FEWEST` the half-width of a peak is that of the reference for as many
+    records, and of other features infinite.
+    """
     answer = ModelAnswer(value, half / (1.0 if row.unit == LEVEL else abs(value) or 1.0))
     if records > (1 - AS_ONE) * WHEELS:
         return answer

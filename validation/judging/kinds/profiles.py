@@ -12,7 +12,7 @@ import numpy as np
 
 import mdr
 from validation.analysis.statistics import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.judging.kinds.judge import Finding, LostError, answer_of, attempted, rule
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.rolling import WheelAtApproach, of_density
@@ -45,7 +45,7 @@ def springs_beside(model: Caller, rows: Sequence[Reference]) -> Iterator[Finding
     for _, grouped in groupby(rows, lambda row: replace(JudgedPunch.at(row.where), force=1.0)):
         group = list(grouped)
         punches = list(dict.fromkeys(JudgedPunch.at(row.where) for row in group))
-        pressed = attempted(_pressed, model, punches)
+        pressed = attempted(_stiffness_of_profiles, model, punches)
         answers = repeat(pressed) if isinstance(pressed, Failed) else map(sampled, pressed.T)
         yield from beside_punches(group, dict(zip(punches, answers, strict=False)))
 
@@ -102,8 +102,11 @@ def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: Any) -> float:
     return float(ground.rms * math.sqrt(float(c1d.sum() / mdr.geike(waves, ground.c2d).sum())))
 
 
-def _pressed(model: Caller, punches: list[JudgedPunch]) -> FloatArray:
-    """k / (E* L) of each profile under the load of each punch, of one roughness: springs with L_1D = L."""
+def _stiffness_of_profiles(model: Caller, punches: list[JudgedPunch]) -> FloatArray:
+    """k / (E* L), of shape (`PROFILES`, punches): profiles with the spectrum of the model, under each load.
+
+    punches: of one roughness and side. Springs have L_1D = L. Raises LostError for a spectrum that no profile has.
+    """
     load, side, modulus, ground = punches[0].arguments.values()
     step, first, last = 2 * math.pi / side, punches[0].first, punches[0].first * punches[0].waves
     waves = step * np.arange(first, last + 1)

@@ -72,7 +72,7 @@ def about(quantity: str) -> Mapping[str, Any]:
 
 
 def quantities() -> list[str]:
-    """That have a file."""
+    """Quantities that have a file of reference numbers."""
     return [quantity_with(str(about(path.stem)["quantity"])) for path in sorted(FOLDER.glob("*.csv"))]
 
 
@@ -84,6 +84,7 @@ def _lines(quantity: str) -> list[str]:
 
 
 def file_name(quantity: str) -> str:
+    """The name of the CSV that has the reference numbers of a quantity."""
     return f"{key_of(quantity)}.csv"
 
 

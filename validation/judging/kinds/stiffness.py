@@ -1,25 +1,33 @@
-"""Stiffness of a rough square punch by a formula, or one of its realisations a call, beside boundary elements."""
+"""Stiffness of a rough square punch by a formula, a realisation a call, or of a surface, beside boundary elements."""
 
 import math
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby, product
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 import mdr
-from validation.analysis.quantity import Quantity
-from validation.analysis.statistics import moments
-from validation.engine.random_numbers import random_generator
+from validation.analysis.quantity import MEAN_STIFFNESS, Quantity
+from validation.analysis.statistics import jackknifed, moments, ratio_of_means, student
+from validation.engine.engine import Engine, Outcome
+from validation.engine.realisations import random_generator
 from validation.judging import judgement
-from validation.judging.judgement import Conditions
+from validation.judging.judgement import RATIO, Conditions
 from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, compared, rule
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.registry import Caller, Failed, FloatArray
-from validation.simulation.quantities import MEAN_STIFFNESS
-from validation.simulation.rough_punch import PlateauSpectrum
+from validation.simulation.rough_punch import (
+    STIFFNESS_ERROR,
+    PlateauSpectrum,
+    PunchRoughness,
+    Surface,
+    force_levels,
+    press_lightly,
+)
 
 SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
 """L [m], E* [Pa] and h / L at which a model is asked: k / (E* L) is that of any others."""
@@ -47,11 +55,11 @@ BY_BAND = Quantity("deviation_of_the_stiffness_by_bandwidth", "deviation of the 
 class PlateauRoughness(PlateauSpectrum):
     """What a stranger gets: with its own rms height, constant below the roll-off."""
 
-    def c2d(self, q: ArrayLike) -> FloatArray:
+    def _density(self, q: FloatArray) -> FloatArray:
         """C_2D [m^4], whose integral is the mean square height; that of the draw has the level without a plateau."""
         n, first, last, bend = -2 * self.hurst, self.q_min, self.q_max, self.q_roll_off
         tail, plateau = (last**n - bend**n) / n, bend ** (n - 2) * (bend**2 - first**2) / 2
-        return np.asarray((last**n - first**n) / n / (plateau + tail) * super().c2d(q))
+        return np.asarray((last**n - first**n) / n / (plateau + tail) * super()._density(q))
 
 
 @dataclass(frozen=True)
@@ -242,3 +250,93 @@ def _rise(model: Caller, rows: Sequence[Reference]) -> Iterator[Finding]:
         if means := [value for value in values if value > 0]:
             least = float((means / np.maximum.accumulate(means)).min())
             yield rule("rise with the load, at the least", {H: hurst}, least, within=1e-9)
+
+
+CELLS, SEED_OF_SURFACES, TOLERANCE = 256, 14, 1e-4
+"""On a side, four to the shortest wave; of the surfaces of Fig. 14.1; residual of the solver."""
+HURSTS, SURFACES = (0.4, 0.7, 1.0), 8
+"""Surfaces of each H."""
+FORCES = force_levels((-3, 1), 3)[::2]
+SECONDS, FEWEST_SURFACES = 20.0, 3
+"""After so long nothing more is asked; fewer surfaces have no error bar."""
+OF_SURFACE, REALISATION = "stiffness of a surface", "surface"
+
+
+def judged_surfaces(model: Caller) -> Iterator[Finding]:
+    """Each surface under each load; and mean and deviation over them, both on the same surfaces."""
+    answers: dict[tuple[float, float], list[tuple[float, Reference]]] = {}
+    end = time.perf_counter() + SECONDS
+    # the first surface of each H, the second of each, and so on
+    for (realisation, hurst), rows in groupby(sorted(reference_rows(OF_SURFACE), key=_surface_of), _surface_of):
+        height = SIDE * roughness(hurst).surface(CELLS, int(realisation.split()[-1]))
+        for row in rows:
+            if time.perf_counter() > end:
+                yield Finding(row, ModelAnswer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
+                continue
+            value = model.call(height=height, spacing=SIDE / CELLS, modulus=MODULUS, load=load_of(row[FORCE]))
+            answer = over_unit(value)
+            if not isinstance(answer, Failed):
+                answers.setdefault((hurst, row[FORCE]), []).append((answer, row))
+            yield Finding(row, answer)
+    for (hurst, force), pairs in sorted(answers.items()):
+        if len(pairs) >= FEWEST_SURFACES:
+            yield from _over_surfaces({H: hurst, FORCE: force}, pairs)
+
+
+def _surface_of(row: Reference) -> tuple[str, float]:
+    return str(row.where[REALISATION]), row[H]
+
+
+def _over_surfaces(where: Conditions, pairs: Sequence[tuple[float, Reference]]) -> Iterator[Finding]:
+    """Ratios of means and of deviations, whose scatter is that of the model beside the same surfaces."""
+    both = np.array([(value, row.value) for value, row in pairs])
+    grid = float(np.mean([row.grid for _, row in pairs]))
+
+    def log_ratio(rows: FloatArray) -> FloatArray:
+        value, exact = rows.std(axis=0, ddof=1) / rows.mean(axis=0)
+        return np.atleast_1d(np.log(max(value, 1e-9)) - np.log(exact))
+
+    ratio, (log_deviations,) = ratio_of_means(*both.T), jackknifed(log_ratio, both)
+    deviations, of_deviation = both.std(axis=0, ddof=1) / both.mean(axis=0), min(log_deviations.half_width, 10.0)
+    for quantity, unit, (value, exact), half in (
+        (MEAN, RATIO, both.mean(axis=0), ratio.half_width / ratio.value),
+        (DEVIATION, judgement.DEVIATION, deviations, of_deviation),
+    ):
+        row = Reference(where, float(exact), grid=grid, unit=unit, quantity=quantity)
+        yield Finding(row, ModelAnswer(float(value), half))
+
+
+def roughness(hurst: float) -> PunchRoughness:
+    """Of Fig. 14.1, in units of L = 1."""
+    return PunchRoughness(hurst=hurst, waves=(1, WAVES), height=HEIGHT, seed=SEED_OF_SURFACES, common=True)
+
+
+def solved_surfaces(engine: Engine) -> Iterator[Reference]:
+    """The references: k / (E* L) of each surface on the finer of two grids, in three minutes of one core.
+
+    On single surfaces the error of the cells has either sign and is of no order, where few cells touch least of all:
+    an answer on cells of no size cannot be told. As much is left as the finer grid and that which a model is given
+    differ, by the root mean square over the surfaces of one H and load, with Student's quantile.
+    """
+    groups = {
+        (hurst, cells): [
+            Surface(roughness=roughness(hurst), realisation=i, cells=cells, forces=FORCES, tolerance=TOLERANCE)
+            for i in range(SURFACES)
+        ]
+        for hurst, cells in product(HURSTS, (CELLS, 2 * CELLS))
+    }
+    outcomes = engine.map_groups(press_lightly, groups)
+    for hurst in HURSTS:
+        wheres: list[Conditions] = [{H: hurst, REALISATION: f"surface {i}"} for i in range(SURFACES)]
+        yield from on_finer_grid(wheres, FORCES, *(outcomes[hurst, n] for n in (CELLS, 2 * CELLS)))
+
+
+def on_finer_grid(
+    wheres: Sequence[Conditions], forces: Sequence[float], coarse: Sequence[Outcome], fine: Sequence[Outcome]
+) -> Iterator[Reference]:
+    """Of each surface, under its conditions; what both grids differ is left, as in `solved`, and by residuals."""
+    logs = [np.log([outcome["stiffness"] for outcome in outcomes]) for outcomes in (coarse, fine)]
+    left = student(len(wheres)) * np.sqrt(np.mean((logs[1] - logs[0]) ** 2, axis=0))
+    left = np.hypot(left, 5 * STIFFNESS_ERROR)
+    for (i, j), value in np.ndenumerate(logs[1]):
+        yield Reference({**wheres[i], FORCE: forces[j]}, math.exp(value), grid=float(left[j]))

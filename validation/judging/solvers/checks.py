@@ -10,7 +10,7 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from validation.analysis.verdict import Verdict
+from validation.analysis.evidence import Verdict
 from validation.benchmarks.discrete import STATED, ContactProblem, KnownContact, pressed, problems
 from validation.benchmarks.timing import timed as clocked
 from validation.judging.judgement import JudgedNumber, SolverTime, missing_number

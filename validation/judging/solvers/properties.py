@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from validation.analysis.verdict import Verdict, verdict_of
+from validation.analysis.evidence import Verdict, verdict_of
 from validation.benchmarks.discrete import ContactProblem
 from validation.judging.judgement import ROUNDING, JudgedNumber
 from validation.judging.registry import Caller, Failed, FloatArray

@@ -13,7 +13,16 @@ from validation.analysis.series import FIELD, THREE_DECIBELS, Estimates, Where, 
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, Interval, jackknifed
 from validation.case import SERIAL, Engine, Quantity, Series
 from validation.railway.cases import filters
-from validation.railway.cases.filters import GROUNDS, OFFSET, RailWheel, counted, decibel, linear_filter, on_strips
+from validation.railway.cases.filters import (
+    GROUNDS,
+    OFFSET,
+    SPEEDS,
+    RailWheel,
+    counted,
+    decibel,
+    linear_filter,
+    on_strips,
+)
 from validation.railway.cases.rolled_filters import (
     A3,
     OVER_BEM,
@@ -37,7 +46,7 @@ SHOWN = MODELS[:-1]
 ON_ROUGHER = (LINEAR, LINEAR_ON_LINE, filters.BED_WIDER)
 """Judged over rougher rails too; a linear filter is the same there, and boundary elements are nearly so."""
 TABLE = "published table"
-WEIGHTED = Quantity("rms_force_over_that_of_boundary_elements_dB_A", "rms force over that of boundary elements [dB(A)]")
+WEIGHTED = Quantity("sound_power_re_boundary_elements_dB_A", "sound power relative to boundary elements [dB(A)]")
 ONE_LINE = Quantity("A3_of_one_line_over_that_of_boundary_elements")
 REACH = Quantity(
     "shortest_wave_within_1_dB_of_boundary_elements_mm", "shortest wave within 1 dB of boundary elements [mm]"
@@ -49,9 +58,11 @@ NEAREST = Quantity("nearest_to_boundary_elements")
 LEFT = Quantity("worst_band_of_the_nearest_dB", "worst band of the nearest [dB]")
 ALPHA_OF, FACTOR_OF, ALIKE = "alpha of Remington", "factor of the bed", "alpha that is alike"
 WHEEL, GROUND, SPEED = "wheel", "across", "speed [km/h]"
-SPEEDS, TOLERANCES = (80.0, 200.0), (1.0, 2.0, 3.0)
-WAYS = ("in the worst band that counts", *(f"in dB(A) at {speed:g} km/h" for speed in SPEEDS))
-FINE_ALPHAS = np.geomspace(0.1, 8.0, 60)
+TOLERANCES = (1.0, 2.0, 3.0)
+WORST_BAND = "in the worst band that counts"
+AT_SPEEDS = {speed: f"in sound power at {speed:g} km/h" for speed in SPEEDS}
+WAYS = (WORST_BAND, *AT_SPEEDS.values())
+FINE_ALPHAS = np.geomspace(0.05, 8.0, 70)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -167,7 +178,7 @@ def _over_bem(result: AcrossResult, key: Key) -> Iterator[Series]:
 
 
 def _weighted(result: AcrossResult, key: Key) -> Iterator[Series]:
-    """The A-weighted force of a spring of constant stiffness that follows the equivalent roughness."""
+    """Sound power per axle by each filter, relative to that by the filter of boundary elements."""
     scene, ground = result.case.scene(key), GROUNDS[key[2]]
     for model in MODELS:
         a3 = linear_filter(scene, model, ground)
@@ -225,7 +236,7 @@ def _least_off(filtered: Callable[[float], FloatArray], reference: FloatArray) -
 
 
 def _of_wheel(result: AcrossResult, wheel: RailWheel) -> Iterator[Series]:
-    """Up to which alpha one line is enough, in the bands that count and in dB(A); the published table beside A3."""
+    """Up to which alpha one line is enough, in bands that count and in sound power; the published table beside A3."""
     where: Where = {WHEEL: wheel.label}
     if (of_table := filters.columns_of_table().get(wheel)) is not None:
         yield Series(A3, TABLE, list(of_table.values()), where=where, along=WAVE, at=list(of_table), unit="dB")
@@ -243,7 +254,7 @@ def _of_wheel(result: AcrossResult, wheel: RailWheel) -> Iterator[Series]:
 
 
 def _one_line_off(result: AcrossResult, keys: Sequence[Key], sign: int) -> FloatArray:
-    """Worst band that counts, and dB(A) at each speed, of one line over boundary elements, (alphas, ways).
+    """Worst band that counts, and sound power at each speed, of one line over boundary elements, (alphas, ways).
 
     Linear theory of the ellipse on a fine grid of alpha, with what boundary elements are over it between the alphas at
     which they rolled.

@@ -1,4 +1,4 @@
-"""Contact filters of the field for a wheel on a rail, in dB over nominal wavelengths and in dB(A) over a speed.
+"""Contact filters of the field for a wheel on a rail, in dB over nominal wavelengths and in dB(A) of sound power.
 
 Beside them the published one, CNOSSOS-EU: an overlay, which knows nothing of a scene. As far as we recall it came from
 runs of distributed point reacting springs (DPRS), so that no model is ranked by it.
@@ -14,11 +14,11 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from validation.analysis.sound import a_weighting, energy_sum
-from validation.analysis.spectra import NominalBands
+from validation.analysis.spectra import NominalBands, assessed_bands
 from validation.analysis.statistics import FloatArray
 from validation.railway.problems.equivalent_displacement import geike_power, transfer_of
 from validation.railway.problems.rail_strip import (
+    OneAcross,
     StatedAcross,
     Transfer,
     line_of,
@@ -29,12 +29,13 @@ from validation.railway.problems.rail_strip import (
 )
 from validation.railway.scenes.level_files import curve
 from validation.railway.scenes.rail import RailScene
+from validation.railway.theory.sound_power import in_frequency, weighted_total
 from validation.simulation.model_names import BED, LINEAR_GEIKE, LINEAR_ON_LINE
 from validation.theory.half_space import EllipticContact
 
 OFFSET = "over ISO 3095 [dB]"
 """Of the levels of a rail over the limit curve."""
-TABLE, HEADER = Path(__file__).with_name("cnossos_a3_2021.csv"), 3
+TABLE, HEADER = Path(__file__).parents[1] / "tables" / "cnossos_a3_2021.csv", 3
 T = TypeVar("T", bound=np.generic)
 STEEL = 210e9 / (2 * (1 - 0.3**2))
 """E* of steel on steel [Pa]."""
@@ -44,10 +45,10 @@ BED_WIDER, WIDER = "spring bed wider by 2/√3", 2 / math.sqrt(3)
 LINES_APART, LINES_NEAR = "mean of lines 5 mm apart", "mean of lines 0.71 a_y apart"
 APART, NEAR = 0.005, 1 / math.sqrt(2)
 """Of three lines: m as they are measured; over a_y, where they have the mean square distance a_y^2 / 3 of the punch."""
-ACROSS: dict[str, StatedAcross] = {"ridges": "ridges", "isotropic ground": "isotropic"}
+ACROSS: dict[str, OneAcross] = {"ridges": "ridges", "isotropic ground": "isotropic"}
 """Both ends of what may lie across."""
 ALPHAS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
-GROUNDS: dict[str, StatedAcross] = {
+GROUNDS: dict[str, OneAcross] = {
     "ridges": "ridges",
     **{f"alpha = {alpha:g}": alpha for alpha in ALPHAS},
     "isotropic ground": "isotropic",
@@ -127,7 +128,7 @@ def linear_filter(
 
 def counted(a3: FloatArray) -> NDArray[np.bool_]:
     """All bands that are longer than the first below -15 dB."""
-    return np.logical_and.accumulate(a3 > COUNTED)
+    return assessed_bands(a3, COUNTED)
 
 
 def on_strips(scene: RailScene, values: NDArray[T]) -> NDArray[T]:
@@ -147,16 +148,14 @@ def decibel(power: ArrayLike) -> FloatArray:
 
 
 def weighted_level(scene: RailScene, a3: FloatArray, speed: float) -> float:
-    """dB(A): levels and filter at f = v / lambda, A-weighted and summed over all bands; speed [km/h].
-
-    The force that a contact spring of constant stiffness bears, k times the equivalent roughness: no mobility of wheel
-    or track, no radiation. Of use as a difference between filters alone.
-    """
-    frequency = speed / 3.6 / scene.levels.bands.wavelengths
-    return energy_sum(np.array(scene.levels.levels) + a3 + a_weighting(frequency))
+    """Sound power by a filter [dB(A) re 1 pW], per axle: L_eq + G-3a and G-3b, A-weighted and summed; speed [km/h]."""
+    levels, transfer = scene.levels, scene.sound_transfer
+    equivalent = in_frequency(np.array(levels.levels) + a3, levels.bands.nominal, speed / 3.6)
+    return weighted_total(equivalent + transfer.of_both)
 
 
 def over_in_decibel_a(
     scene: RailScene, a3: FloatArray, reference: FloatArray, speeds: Iterable[float] = SPEEDS
 ) -> list[float]:
+    """Sound power by a filter over that by another at each speed [dB(A)]."""
     return [weighted_level(scene, a3, v) - weighted_level(scene, reference, v) for v in speeds]

@@ -1,6 +1,6 @@
 """The contact force of a wheel on a rail as a sound, by four models on the same surface, and its levels.
 
-Levels are A-weighted and in one-third octaves, and over boundary elements.
+Levels are in one-third octaves; A-weighted ones of a force are written for one release alone.
 """
 
 import math
@@ -12,12 +12,20 @@ from itertools import pairwise
 import numpy as np
 
 from validation.analysis.evidence import Table, table_of
-from validation.analysis.sound import a_weighting, common_full_scale, filtered, powers_of_blocks
-from validation.analysis.spectra import KILOHERTZ, Bands, levels, waves
+from validation.analysis.spectra import (
+    KILOHERTZ,
+    Bands,
+    a_weighting,
+    common_full_scale,
+    filtered,
+    levels,
+    powers_of_blocks,
+    waves,
+)
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.case import SERIAL, Engine, Outcomes
-from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
+from validation.engine.realisations import NotConvergedError
 from validation.railway.problems import rail_sound as sounds
 from validation.railway.problems.rail_sound import GEIKE, ISOTROPIC, HeldWheel
 from validation.railway.problems.rail_strip import RailStrip, StatedAcross, strip_bands, strip_of
@@ -171,7 +179,7 @@ class RailSoundResult(Outcomes):
         return estimate, abs(estimate.value - on_coarse.value) * coarse / (fine - coarse)
 
     def _over_bem(self, model: str, cells: int) -> Estimate:
-        """By the jackknife over pieces of the strip."""
+        """A-weighted level relative to boundary elements on so many cells [dB], by the jackknife over pieces."""
         powers = [powers_of_blocks(filtered(self[name, cells], self.weight), self.case.blocks) for name in (model, BEM)]
 
         def ratio(rows: FloatArray) -> FloatArray:
@@ -197,25 +205,27 @@ class RailSoundResult(Outcomes):
         return Table("levels", {"f [Hz]": (self.bands.centres / (2 * math.pi)).tolist(), **columns})
 
     def sounds_table(self) -> Table:
-        """A row a model: its levels, and over boundary elements where these are heard."""
+        """A row a model: its level, without a weight, since a force has another one than sound power."""
         rows = []
         for model in self.case.sounding:
             row: dict[str, object] = {
                 "model": model,
                 "level [dB re 1 N]": round(self.level(model), 2),
-                "A-weighted [dB re 1 N]": round(self.weighted(model), 2),
                 "largest [N]": round(float(np.abs(self.signal(model)).max()), 1),
                 "full scale [N]": self.full_scale,
                 "samples a second": self.case.rate,
             }
-            if BEM in self.case.sounding:
-                estimate, grid = self.over(model)
-                row |= {
-                    "A-weighted over boundary elements [dB]": round(estimate.value, 2),
-                    "± [dB]": round(estimate.half_width + grid, 2),
-                }
             rows.append(row)
         return table_of("sounds", rows)
+
+    def former_levels(self, model: str) -> dict[str, float]:
+        """A-weighted level of the force, and over boundary elements: in sounds.json alone, for one release."""
+        levels = {"A-weighted [dB re 1 N]": round(self.weighted(model), 2)}
+        if BEM in self.case.sounding:
+            estimate, grid = self.over(model)
+            levels["A-weighted over boundary elements [dB]"] = round(estimate.value, 2)
+            levels["± [dB]"] = round(estimate.half_width + grid, 2)
+        return levels
 
     def samples_table(self) -> Table:
         """A column a model, to a tenth of a newton."""

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from validation.analysis.number_text import tenth
-from validation.analysis.sound import Sound, Sounds
+from validation.analysis.spectra import Sound, Sounds
 from validation.case import Case, Chapter, Chart, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import rail_sound
 from validation.railway.cases.rail_sound import SOUNDING, RailSound, RailSoundResult
@@ -50,18 +49,12 @@ def sounds_of(result: RailSoundResult) -> Sounds:
                 name=name,
                 label=model[0].upper() + model[1:],
                 column=rail_sound.column_of(model),
-                says=f"{result.weighted(model):.1f} dB(A) re 1 N{_beside(result, model)}.",
+                says=f"{result.level(model):.1f} dB re 1 N.",
             )
             for name, model in SOUNDING.items()
             if model in case.sounding
         ),
     )
-
-
-def _beside(result: RailSoundResult, model: str) -> str:
-    if model == BEM or BEM not in result.case.sounding:
-        return ""
-    return f", {tenth(result.over(model)[0].value, sign='+')} dB over boundary elements"
 
 
 def what_is_heard(result: RailSoundResult) -> list[str]:
@@ -103,9 +96,9 @@ STUDY = Study(
         "a wheel of {c.rail.load:g} N at {c.speed:.3g} m/s. The wheel keeps the approach of its smooth contact, as one "
         "that is too heavy to follow; the force along the track is the signal in time. All models roll over the same "
         "surface. Springs of Geike's spectrum have no surface: their profile is the middle line of this one with each "
-        "wave scaled to that spectrum, so that it keeps its phase. Sample: jackknife over {c.blocks} pieces of the "
-        "strip. Grid: {c.cells} cells to the smaller semi-axis, to first order. The A-weighting "
-        "of IEC 61672-1 is meant for sound pressure; here it weights a force, for comparison alone."
+        "wave scaled to that spectrum, so that it keeps its phase. Boundary elements have {c.cells} cells to the "
+        "smaller semi-axis. A force has another weight than sound power: what a filter changes for the ear is in the "
+        "case across."
     ),
     series=series,
     charts=(

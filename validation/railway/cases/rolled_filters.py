@@ -12,8 +12,8 @@ from validation.analysis.series import Estimates, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
-from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import Outcome
+from validation.engine.realisations import FEWEST, NotConvergedError, require_realisations
 from validation.railway.cases import filters
 from validation.railway.cases.filters import GROUNDS, REMINGTON, RailWheel
 from validation.railway.problems import equivalent_displacement as tracks

@@ -6,7 +6,7 @@ import textwrap
 from pathlib import Path
 
 from validation.analysis.contents import as_csv, as_json
-from validation.analysis.number_text import tenth
+from validation.analysis.escapes import printable
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
 from validation.railway.cases.rail_sound import SOUNDING, RailSound, RailSoundResult, run
@@ -17,7 +17,6 @@ from validation.report.folder import SOUND, Folder
 from validation.report.sounds import wavs
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
-from validation.scenes.printable import printable
 
 WHOLE = 2.0
 """Seconds that a file lasts at the least: shorter strips are repeated."""
@@ -74,7 +73,10 @@ def sound(arguments: argparse.Namespace) -> Exit:
 def files_of(result: RailSoundResult) -> dict[str, bytes]:
     """By their names: sounds, levels in one-third octaves, and all that is to be known about them."""
     sounds, table = sounds_of(result), result.sounds_table()
-    rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
+    rows = [
+        dict(zip(table.columns, row, strict=True)) | result.former_levels(model)
+        for model, row in zip(result.case.sounding, zip(*table.columns.values(), strict=True), strict=True)
+    ]
     files = {f"{name}.wav": contents for name, contents in wavs(sounds, result.samples_table()).items()}
     about = {
         "scene": result.case.rail.name,
@@ -102,19 +104,8 @@ def _assumed(case: RailSound) -> list[str]:
 def _lines(result: RailSoundResult) -> list[str]:
     """A row a model."""
     table = result.sounds_table()
-    reference = SOUNDING["bem"]
-    has_reference = reference in result.case.sounding
-    lines = [
-        f"{'model':32s} {'level':>10s} {'A-weighted':>12s}" + ("   over boundary elements" if has_reference else "")
-    ]
-    for i, model in enumerate(result.case.sounding):
-        level, weighted = table["level [dB re 1 N]"][i], table["A-weighted [dB re 1 N]"][i]
-        line = f"{model:32s} {level:7.1f} dB {weighted:6.1f} dB(A)"
-        if has_reference and model != reference:
-            over, half = table["A-weighted over boundary elements [dB]"][i], table["± [dB]"][i]
-            line += f"   {tenth(over, sign='+')} ± {half:.1f} dB(A)"
-        lines.append(line)
-    return lines
+    levels = zip(result.case.sounding, table["level [dB re 1 N]"], strict=True)
+    return [f"{'model':32s} {'level re 1 N':>12s}", *(f"{model:32s} {level:9.1f} dB" for model, level in levels)]
 
 
 def _seconds(word: str) -> float:

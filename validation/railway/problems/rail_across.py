@@ -14,7 +14,7 @@ import bem3d
 from validation.analysis.spectra import Bands, levels, waves
 from validation.engine.engine import FloatArray, Outcome
 from validation.railway.problems.equivalent_displacement import lifted, linear_displacement
-from validation.railway.problems.rail_strip import RailGround, RailStrip, StatedAcross, strip_bands, strip_of
+from validation.railway.problems.rail_strip import OneAcross, RailGround, RailStrip, strip_bands, strip_of
 from validation.railway.scenes.rail import RailScene
 from validation.simulation.model_names import BEM, LINEAR
 
@@ -46,7 +46,7 @@ class WideRail:
     tolerance: float = 3e-5
 
 
-def wide_rail(scene: RailScene, across: StatedAcross, cells: int, realisation: int, seed: int) -> WideRail:
+def wide_rail(scene: RailScene, across: OneAcross, cells: int, realisation: int, seed: int) -> WideRail:
     """One realisation with so many cells to the smaller semi-axis; the same surface on every grid."""
     strip = strip_of(scene, across, cells, realisation, seed)
     longest = 2 * math.pi / strip.ground.first

@@ -19,6 +19,7 @@ from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.engine.engine import FloatArray, Outcome
 from validation.railway.problems.equivalent_displacement import RolledRail, log_over, roll_rail, transfer_of
+from validation.railway.problems.rail_power import RailPower, asks_for_power
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.railway.problems.rail_strip import RailStrip, StatedAcross, positions_along, strip_bands, strip_of
 from validation.railway.scenes.measured_lines import MeasuredLines
@@ -136,8 +137,8 @@ class ContactFilter:
         a3 = self.closed(quantity).mean(axis=0)
         error = self.model_error(quantity, a3)
         return ErrorEstimate(
-            model=relative(worst(quantity, a3, error)),
-            of_scene=relative(worst(quantity, a3, quantity.left_by_ground)),
+            model=relative(quantity.largest_error(a3, error)),
+            of_scene=relative(quantity.largest_error(a3, quantity.left_by_ground)),
             reason=reason_of(quantity, a3, error),
         )
 
@@ -169,15 +170,16 @@ class ContactFilter:
         return Cost(work=positions + drawn, seconds=closed.seconds + self.seconds * positions + DRAWN * drawn)
 
     def solve(self, target: Target, resolution: Resolution) -> Result:
-        """Of both quantities, by their names, and what `find` has."""
+        """Of all quantities that the scene has, by their names, and what `find` has."""
         quantity = rail_quantity(target)
         values = self.find(quantity, target.seed)
-        both = {str(name): replace(quantity, name=name).amplitude(values["a3"]) for name in RAIL_QUANTITIES}
+        names = [name for name in RAIL_QUANTITIES if not quantity.scene.no_answer(name)]
+        all_of_them = {name: replace(quantity, name=name).amplitude(values["a3"]) for name in names}
         failed = "" if np.isfinite(values["a3"]).all() else "a contact along a strip did not converge"
-        return Result({**both, **values}, failed=failed)
+        return Result({**all_of_them, **values}, failed=failed)
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class RailModel(Model):
     """filter: what it makes of a rail."""
 
@@ -218,31 +220,32 @@ def in_strips(quantity: RailQuantity) -> NDArray[np.bool_]:
     return np.isin(quantity.bands.numbers, strip_bands(quantity.scene).numbers)
 
 
-def worst(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> float:
-    """The largest error in bands that count [dB]; infinite where none does."""
-    counted = error[quantity.counted(a3)]
-    return float(counted.max()) if counted.size else math.inf
-
-
 def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     """The band in which the error is largest, and what it is due to there."""
     if not quantity.counted(a3).any():
         return quantity.none_counts
-    at = int(np.argmax(np.where(quantity.counted(a3), error, -1.0)))
+    at = quantity.worst_band(a3, error)
+    measured = quantity.scene.measured_structure is not None
     spread = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
     off, smoothing = abs(a3[at] - quantity.linear.mean(axis=0)[at]), quantity.smoothing_error[at]
     is_open, of_strips = quantity.scene.lateral_structure is None, strip_bands(quantity.scene).span
     faults = quantity.left_by_faults[at]
     causes = {
         f"outliers of the measured lines leave ± {faults:.2g} dB": faults > 0,
-        f"lateral_structure is not given, {spread}": is_open,
+        f"lateral_structure is not given, {spread}": is_open and not measured,
+        f"the lateral structure by the lines leaves ± {quantity.half_width[at]:.2g} dB": measured,
         f"no isotropic ground has this level, {spread}": quantity.stands_out[at] and not is_open,
         f"levels that scatter leave ± {smoothing:.2g} dB of isotropic ground": smoothing > 0,
         f"{off:.2g} dB off {LINEAR}, on this ground": off > LINEAR_ERROR,
         f"h' a_x / d = {quantity.lost:.2g} of waves of {of_strips}": True,
     }
     due = "; ".join(cause for cause, holds in causes.items() if holds)
-    return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {due}"
+    place = f"{1e3 * quantity.bands.nominal[at]:g} mm"
+    return (
+        f"{place} leaves most of its error: {due}"
+        if asks_for_power(quantity.name)
+        else (f"its error is largest at {place}: {due}")
+    )
 
 
 def answer_in_bands(scene_model: SceneModel) -> Answer:
@@ -252,12 +255,14 @@ def answer_in_bands(scene_model: SceneModel) -> Answer:
     if result.failed:
         return Answer(value=np.array([np.nan]), cost=scene_model.cost(), failed=result.failed)
     quantity, a3 = rail_quantity(scene_model.target), result.values["a3"]
+    if asks_for_power(quantity.name):
+        return answer_of_power(scene_model, quantity, result)
     counts = quantity.counted(a3)
     answer = Answer(
         value=result.values[quantity.name],
         cost=scene_model.cost(),
         counted=(
-            f"the tolerance counts where A3 is above {COUNTED:g} dB: {quantity.bands.names(counts)}"
+            f"the tolerance counts before the first band with A3 below {COUNTED:g} dB: {quantity.bands.names(counts)}"
             if counts.any()
             else quantity.none_counts
         ),
@@ -268,9 +273,29 @@ def answer_in_bands(scene_model: SceneModel) -> Answer:
     error = answer.error_in_bands
     at = int(np.argmax(np.where(counts, error, -1.0)))
     grid, sample = (relative(float(answer.band_errors[name][at]) * counts[at]) for name in ("grid", "sample"))
-    left = relative(worst(quantity, a3, error)) - math.hypot(grid, sample)
+    left = relative(quantity.largest_error(a3, error)) - math.hypot(grid, sample)
     reason = reason_of(quantity, a3, error) if np.isfinite(error).any() else ""
     return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason)
+
+
+def answer_of_power(scene_model: SceneModel, quantity: RailQuantity, result: Result) -> Answer:
+    """Levels in bands of frequency; the errors of the answer are those of the sum in dB(A)."""
+    a3 = result.values["a3"]
+    power, parts = RailPower(quantity.scene, a3), {name: result.values[name] for name in ("model", "grid", "sample")}
+    model, grid, sample = (relative(power.error_of_total(part)) for part in parts.values())
+    error = parts["model"] + np.hypot(parts["grid"], parts["sample"])
+    return Answer(
+        value=power.amplitude,
+        cost=scene_model.cost(),
+        model=model,
+        grid=grid,
+        sample=sample,
+        counted=f"the tolerance is that of the sum, {power.total:.1f} dB(A) re 1 pW",
+        counts=tuple(np.isfinite(power.level).tolist()),
+        band_errors={name: power.half_widths(part) for name, part in parts.items()},
+        reason=reason_of(quantity, a3, error) if np.isfinite(error).any() else "",
+        seconds=scene_model.seconds_of(1),
+    )
 
 
 def what_would_state_the_ground(target: Target) -> str:
@@ -285,6 +310,8 @@ def what_would_state_the_ground(target: Target) -> str:
         return "a measurement without the outliers that the notes name, or a part of it that has none"
     if isinstance(scene.roughness, MeasuredHeights):
         return "a filter of this surface, by its own heights: of its lines both ends of what lies across are open"
+    if scene.measured_structure is not None:
+        return f"more or longer lines, or lines closer together for short waves; or {stated}"
     if scene.lateral_structure is None:
         return f'to tell what lies across the rail, as lateral_structure = "isotropic" or {stated.partition(" = ")[2]}'
     table = "rail.lines" if isinstance(scene.roughness, MeasuredLines) else "rail.levels"

@@ -4,22 +4,35 @@ A3 = 10 lg of the band power of the equivalent displacement over that of the lin
 line decides it: where the scene leaves that out, ridges and isotropic ground are both ends of the answer.
 """
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.spectra import NominalBands
+from validation.analysis.spectra import NominalBands, assessed_bands
 from validation.engine.engine import FloatArray
 from validation.railway.problems.equivalent_displacement import transfer_of
-from validation.railway.problems.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
+from validation.railway.problems.rail_power import RailPower, asks_for_power
+from validation.railway.problems.rail_strip import (
+    LateralBands,
+    OneAcross,
+    StatedAcross,
+    line_of,
+    lost_contact_number,
+    structure_of,
+)
 from validation.railway.scenes.level_files import MICROMETRE
 from validation.railway.scenes.rail import CONTACT_FILTER, COUNTED, RailScene
+from validation.railway.theory.line_coherence import LARGEST, LateralEstimate
 from validation.railway.theory.transverse_structure import Filter, IsotropicGround, LineSpectrum, TransverseStructure
 from validation.simulation.model_names import LINEAR
 
 RAIL_QUANTITIES = tuple(map(str, RailScene.quantities))
+GRID = np.geomspace(0.05, LARGEST, 24)
+"""alpha at which filters are compared, between the ends of what was measured."""
 TILT = 0.3
 """Of the exponent of a line, over which A3 changes in proportion."""
 OF_SMOOTHING = 3.0
@@ -44,12 +57,38 @@ class RailQuantity:
         own = self.scene.levels.bands
         return own if self.longest is None else NominalBands(self.longest, own.shortest)
 
-    @property
+    @cached_property
     def ends(self) -> tuple[StatedAcross, ...]:
-        """What lies across, or both ends of what may: also where levels stand out of the isotropic ground stated."""
+        """What lies across, or both ends of what may: also where levels stand out of the isotropic ground stated.
+
+        Of parallel lines the ends are those of the measured structure, band by band, the quieter filter last.
+        """
+        if self.scene.measured_structure is not None:
+            return self._measured_ends(self.scene.measured_structure)
         if self.scene.lateral_structure is None or self.stands_out.any():
             return "ridges", "isotropic"
         return (self.scene.lateral_structure,)
+
+    def _measured_ends(self, estimates: Sequence[LateralEstimate]) -> tuple[LateralBands, LateralBands]:
+        """Of what may lie across in each band, with the loudest and with the quietest filter of linear theory."""
+        # longer waves have the structure of the longest that was measured
+        longer = len(self.bands) - len(estimates)
+        estimates = [estimates[0]] * longer + list(estimates)
+        alphas, transfer = GRID.tolist(), transfer_of(LINEAR, self.scene.contact)
+        own = [self._of_ground(structure_of(alpha, self.line), self.line, transfer) for alpha in alphas]
+        of_grid = np.array([self._of_ground(structure_of("ridges", self.line), self.line, transfer), *own])
+        isotropic = self._of_ground(structure_of("isotropic", self.line), self.line, transfer)
+        grid, chosen = np.array([0.0, *alphas]), list[tuple[OneAcross, OneAcross]]()
+        for i, estimate in enumerate(estimates):
+            between = grid[(grid > estimate.low) & (grid < estimate.high)]
+            may_be: list[OneAcross] = [_named(alpha) for alpha in (estimate.low, *between.tolist(), estimate.high)]
+            a3 = np.interp([estimate.low, *between, estimate.high], grid, of_grid[:, i]).tolist()
+            if estimate.isotropic:
+                may_be, a3 = [*may_be, "isotropic"], [*a3, isotropic[i]]
+            chosen.append((may_be[int(np.argmax(a3))], may_be[int(np.argmin(a3))]))
+        edges = tuple(self.bands.edges.tolist())
+        loud, quiet = zip(*chosen, strict=True)
+        return LateralBands(edges, loud), LateralBands(edges, quiet)
 
     @property
     def stands_out(self) -> NDArray[np.bool_]:
@@ -84,6 +123,8 @@ class RailQuantity:
         """Why no model has one: no wave of the contact's length, or no band that counts; empty where one may have."""
         if self.scene.levels.fault:
             return f"the roughness is not known: {self.scene.levels.fault}"
+        if reason := self.scene.no_answer(self.name):
+            return reason
         try:
             _ = self.lost
         except ValueError as reason:
@@ -147,11 +188,19 @@ class RailQuantity:
         isotropic = self.scene.isotropic
         if isotropic is None or isotropic.as_it_is:
             return np.zeros(len(self.bands))
+        if not self.may_be_isotropic.any():
+            return np.zeros(len(self.bands))
         lines = self.line, self.line.steeper(TILT), isotropic.smoother
         transfer = transfer_of(LINEAR, self.scene.contact)
         own, tilted, smoother = (self._of_ground(IsotropicGround(line), line, transfer) for line in lines)
         error = np.abs(tilted - own) / TILT * isotropic.slope_error + OF_SMOOTHING * np.abs(smoother - own)
-        return np.asarray(error)
+        return np.asarray(np.where(self.may_be_isotropic, error, 0.0))
+
+    @property
+    def may_be_isotropic(self) -> NDArray[np.bool_]:
+        """Bands in which an end of what may lie across is isotropic ground."""
+        of_ends = [end.across if isinstance(end, LateralBands) else (end,) * len(self.bands) for end in self.ends]
+        return np.asarray(np.any([[own == "isotropic" for own in end] for end in of_ends], axis=0))
 
     @cached_property
     def wave(self) -> FloatArray:
@@ -164,11 +213,36 @@ class RailQuantity:
         return lost_contact_number(self.scene)
 
     def counted(self, a3: FloatArray) -> NDArray[np.bool_]:
-        """Bands in which the tolerance counts."""
-        return a3 > COUNTED
+        """Bands in which the tolerance counts; of sound power all, by their share in the sum."""
+        return np.isfinite(a3) if asks_for_power(self.name) else assessed_bands(a3, COUNTED)
+
+    def largest_error(self, a3: FloatArray, error: FloatArray) -> float:
+        """The largest of the errors of A3 in bands that count, or what they leave of the sum of sound power [dB].
+
+        Infinite where no band counts.
+        """
+        if asks_for_power(self.name):
+            return RailPower(self.scene, a3).error_of_total(error)
+        counted = error[self.counted(a3)]
+        return float(counted.max()) if counted.size else math.inf
+
+    def worst_band(self, a3: FloatArray, error: FloatArray) -> int:
+        """Where the error is largest, of sound power by the share of the band in the sum."""
+        if asks_for_power(self.name):
+            known = np.where(np.isfinite(error), error, 0.0)
+            return int(np.argmax(RailPower(self.scene, a3).shares * known))
+        return int(np.argmax(np.where(self.counted(a3), error, -1.0)))
 
     def amplitude(self, a3: FloatArray) -> FloatArray:
-        """Of A3 in dB: the ratio of amplitudes, or the root mean square of the equivalent roughness [m]."""
+        """Of A3 in dB: the ratio of amplitudes, the root mean square of the equivalent roughness [m], or the root of
+        the sound power over 1 pW in bands of frequency [-]."""
+        if asks_for_power(self.name):
+            return RailPower(self.scene, a3).amplitude
         if self.name == str(CONTACT_FILTER):
             return np.asarray(10 ** (a3 / 20))
         return np.asarray(MICROMETRE * 10 ** ((a3 + self.scene.levels.levels) / 20))
+
+
+def _named(alpha: float) -> OneAcross:
+    """All lines alike by their name."""
+    return alpha or "ridges"

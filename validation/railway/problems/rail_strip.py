@@ -5,8 +5,9 @@ Units: metres, newtons, pascals; wavenumbers in rad/m, x along the track.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -14,9 +15,10 @@ from numpy.typing import NDArray
 
 from validation.analysis.spectra import NominalBands
 from validation.engine.engine import FloatArray
-from validation.engine.random_numbers import random_generator
+from validation.engine.realisations import random_generator
 from validation.railway.scenes.rail import RailScene
 from validation.railway.theory.transverse_structure import (
+    BandedStructure,
     IsotropicGround,
     LineSpectrum,
     Ridges,
@@ -30,7 +32,18 @@ ComplexArray = NDArray[np.complex128]
 Transfer = Callable[[FloatArray, FloatArray], FloatArray]
 """H(k_x, k_y), from the height of a wave to that of the result."""
 
-StatedAcross = Literal["ridges", "isotropic"] | float
+OneAcross = Literal["ridges", "isotropic"] | float
+
+
+@dataclass(frozen=True)
+class LateralBands:
+    """Another lateral structure in each band, as it was measured. edges: ascending, (bands + 1,) [rad/m]; across."""
+
+    edges: tuple[float, ...]
+    across: tuple[OneAcross, ...]
+
+
+StatedAcross = OneAcross | LateralBands
 
 LONGEST, SHORTEST = 10.0, 0.45
 """Wavelengths over a_x between which strips are rough: longer waves lift the wheel as a whole, shorter ones need cells
@@ -43,9 +56,20 @@ STRIPS = 5
 
 def structure_of(across: StatedAcross, line: LineSpectrum) -> TransverseStructure:
     """Raises ValueError where no isotropic surface has such a line."""
+    if isinstance(across, LateralBands):
+        own = {name: structure_of(name, line) for name in set(across.across)}
+        return BandedStructure(across.edges, tuple(own[name] for name in across.across))
     if across == "ridges":
         return Ridges()
     return IsotropicGround(line) if across == "isotropic" else WaveBand(float(across))
+
+
+def uniform_parts(across: StatedAcross, edges: FloatArray) -> list[tuple[OneAcross, FloatArray]]:
+    """Edges of bands that have one lateral structure: all together, or a band each as it was measured."""
+    if not isinstance(across, LateralBands):
+        return [(across, edges)]
+    numbers = np.clip(np.searchsorted(across.edges, edges[:-1] * (1 + 1e-9), side="right") - 1, 0, None)
+    return [(across.across[n], edges[i : i + 2]) for i, n in enumerate(np.minimum(numbers, len(across.across) - 1))]
 
 
 def line_of(scene: RailScene) -> LineSpectrum:
@@ -68,12 +92,25 @@ class RailGround:
     with_peaks: LineSpectrum | None = None
 
     @property
+    def parts(self) -> list["RailGround"]:
+        """Grounds of one lateral structure, a band each where these differ."""
+        if not isinstance(self.across, LateralBands):
+            return [self]
+        bands = zip(self.across.across, pairwise(self.across.edges), strict=True)
+        inside = [(own, max(a, self.first), min(b, self.last)) for own, (a, b) in bands]
+        return [replace(self, across=own, first=a, last=b) for own, a, b in inside if a < b]
+
+    @property
     def highest(self) -> float:
         """Of oblique waves too."""
+        if isinstance(self.across, LateralBands):
+            return max(part.highest for part in self.parts)
         return self.last if isinstance(self.across, str) else self.last * math.hypot(1, self.across)
 
     def variance(self, along: FloatArray, across: FloatArray, steps: tuple[float, float]) -> FloatArray:
         """Mean square of waves in cells of sides (dk_x, dk_y) [m^2]."""
+        if isinstance(self.across, LateralBands):
+            return self._variance_of_parts(along, across, steps)
         k_x, k_y = np.broadcast_arrays(np.abs(along), np.abs(across))
         k, (dx, dy) = np.hypot(k_x, k_y), steps
         inside = (k_x >= self.first) & (k_x <= self.last)
@@ -89,6 +126,16 @@ class RailGround:
         else:
             density = WaveBand(float(self.across)).density(wave, k_y, self.line) * dx * dy
         return np.asarray(np.where(inside, density, 0.0))
+
+    def _variance_of_parts(self, along: FloatArray, across: FloatArray, steps: tuple[float, float]) -> FloatArray:
+        """By the band of k_x; isotropic ground has all of its waves there."""
+        k_x, k_y = np.broadcast_arrays(np.abs(along), np.abs(across))
+        total = np.zeros(k_x.shape)
+        for part in self.parts:
+            inside = (k_x >= part.first) & ((k_x < part.last) | (part.last == self.last))
+            own = replace(part, first=self.first, last=self.last)
+            total[inside] = own.variance(k_x[inside], k_y[inside], steps)
+        return total
 
 
 @dataclass(frozen=True, kw_only=True)

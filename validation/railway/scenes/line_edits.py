@@ -74,9 +74,10 @@ class Windows:
 
     @classmethod
     def of(cls, line: FloatArray, spacing: float, sensor: float, parts: int, waves: int = WAVES) -> "Windows | None":
-        """None where a line is too short. sensor: the step to which it was rounded [m]; waves: in a band.
+        """Overlapping windows of a `parts`-th of a line, in bands of so many `waves` and more; None of a short line.
 
-        Spectra are those of the differences of neighbours, which hardly leak, over |2 sin(q spacing / 2)|^2.
+        sensor: the step to which the line was rounded [m]. Spectra are those of the differences of neighbours, which
+        hardly leak, over |2 sin(q spacing / 2)|^2.
         """
         points = max(line.size // parts, FEWEST_POINTS)
         starts = np.append(np.arange(0, line.size - 1 - points, max(1, points // 2)), line.size - 1 - points)

@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from mdr.checks import positive
+from mdr.checks import count, positive
+from validation.analysis.escapes import quoted, shortened
 from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.engine.former_names import renamed_field
@@ -16,14 +17,28 @@ from validation.railway.scenes.isotropic_line import IsotropicLine, isotropic_li
 from validation.railway.scenes.level_files import MICROMETRE, RoughnessLevels
 from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.transverse_profile import TransverseProfile, fitted_radius
+from validation.railway.theory.line_coherence import LateralEstimate, ParallelLines, in_words
+from validation.railway.theory.sound_power import (
+    DEFAULT_TRACK,
+    MOST_AXLES,
+    SoundTransfer,
+    frequencies,
+    in_frequency,
+    nearest_wheel,
+    tracks,
+    wheels,
+)
+from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured_heights import MeasuredHeights, check_covers
+from validation.scenes.rail_impedance import RailImpedance
 from validation.scenes.reader import errors_of
-from validation.scenes.scene import ENSEMBLE_MEAN, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
+from validation.scenes.scene import ENSEMBLE_MEAN, LATER, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
-from validation.scenes.wheel_body import check_damping
+from validation.scenes.wheel_body import MAX_FORCE, check_damping
 from validation.theory.half_space import EllipticContact, elliptic_contact
+from validation.theory.rolling import contact_resonance
 
 Across = Literal["ridges", "isotropic"] | float | None
 """What lies across a measured line: ridges; isotropic ground; waves with |k_y| < alpha k_x; None: nobody knows."""
@@ -34,9 +49,13 @@ CONTACT_FILTER = SceneQuantity("contact-filter", "1", in_bands=True, by_worst_ba
 EQUIVALENT_ROUGHNESS = SceneQuantity(
     "equivalent-roughness", "µm", MICROMETRE, in_bands=True, by_worst_band=True, counted_above=COUNTED
 )
-QUANTITIES = CONTACT_FILTER, EQUIVALENT_ROUGHNESS
+SOUND_POWER = SceneQuantity("sound-power", "pW", in_bands=True)
+"""Of one axle or of all; an amplitude is the root of the power over 1 pW. Its tolerance is that of the sum in dB(A)."""
+QUANTITIES = CONTACT_FILTER, EQUIVALENT_ROUGHNESS, SOUND_POWER
 MAX_PRESSURE = 4e9
 """Largest pressure [Pa] that a half-space of steel is asked for."""
+POINTS = 400
+"""To a band, of the force in motion."""
 HALF_HEAD = 0.036
 """Half of the width of the head of a rail [m], 72 mm of 60E1."""
 WIDE = 0.1
@@ -52,7 +71,7 @@ LONGEST_OF_CONTACT, SHORTEST_OF_CONTACT = 10.0, 0.45
 
 
 @renamed_field("across", "lateral_structure")
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class RailScene(SceneDefaults):
     """A wheel that rolls along a rail with rough surfaces.
 
@@ -75,12 +94,21 @@ class RailScene(SceneDefaults):
     material : Material or None, optional
         What E* is made of, None where only ``modulus`` is known.
     lateral_structure : "ridges", "isotropic", float or None, optional
-        Lateral structure of the roughness: ridges, isotropic ground, or waves with abs(k_y) < alpha k_x. None: ridges
-        and isotropic ground, as both ends.
+        Lateral structure of the roughness: ridges, isotropic ground, or waves with abs(k_y) < alpha k_x. None: that
+        of the coherence of parallel lines, with its interval in each band; of anything else ridges and isotropic
+        ground, as both ends.
     notes : tuple of str, optional
         What was assumed where the scene was made, in sentences.
     damping : float, optional
         Damping ratio of a wheel with a mass, as of `RollingScene`. None by default.
+    impedance : RailDashpot, FreeBeam or None, optional
+        Of the rail under a wheel with a mass: a dashpot with or without a mass, or a free beam. None: a rigid rail.
+    track : str or None, optional
+        Column of table G-3a of CNOSSOS-EU, as "M/S"; None: "M/M".
+    transfer : int or None, optional
+        Column of table G-3b, a diameter of wheels [mm]; None: that nearest to the diameter of the wheel.
+    axles : int or None, optional
+        Number of axles whose sound power is summed; None: one.
 
     Raises
     ------
@@ -114,11 +142,20 @@ class RailScene(SceneDefaults):
     lateral_structure: Across = None
     notes: tuple[str, ...] = ()
     damping: float = 0.0
+    impedance: RailImpedance | None = field(default=None, metadata=LATER)
+    track: str | None = field(default=None, metadata=LATER)
+    transfer: int | None = field(default=None, metadata=LATER)
+    axles: int | None = field(default=None, metadata=LATER)
 
     def __post_init__(self) -> None:
         optional = ("wheel.transverse_radius", "rail.crown_radius", "wheel.speed", "wheel.mass")
         check_scene(self, ("wheel.radius", "wheel.load"), optional)
         check_damping(self.damping, self.mass)
+        if self.impedance is not None and self.mass is None:
+            raise ValueError(
+                "rail.impedance needs a mass: under a constant load a rail does not move, got it alone, as: "
+                'mass = "500 kg" of wheel'
+            )
         if self.transverse_radius is None and self.crown_radius is None:
             raise ValueError(
                 "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"
@@ -128,6 +165,7 @@ class RailScene(SceneDefaults):
             raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {kind}")
         if self.lateral_structure not in ("ridges", "isotropic", None):
             _check_alpha(self.lateral_structure)
+        _check_transfer(self)
         _check_contact(self)
         if isinstance(self.roughness, MeasuredHeights):
             if self.lateral_structure is not None:
@@ -181,9 +219,63 @@ class RailScene(SceneDefaults):
         weights = waves / np.median(waves) if few else np.ones_like(waves)
         return isotropic_line(self.levels, weights)
 
+    @cached_property
+    def sound_transfer(self) -> SoundTransfer:
+        """From the equivalent roughness to sound power, with what stands for keys that are left out."""
+        wheel = nearest_wheel(2 * self.radius) if self.transfer is None else int(self.transfer)
+        return SoundTransfer(self.track or DEFAULT_TRACK, wheel, self.axles or 1)
+
+    @property
+    def parallel_lines(self) -> ParallelLines | None:
+        """Of several measured lines, where no other lateral structure is stated."""
+        lines = self.roughness
+        if self.lateral_structure is not None or not isinstance(lines, MeasuredLines) or len(lines.positions) < 2:
+            return None
+        return ParallelLines(lines.height, lines.spacing, lines.positions)
+
+    @cached_property
+    def measured_structure(self) -> tuple[LateralEstimate, ...] | None:
+        """Lateral structure in each band by the coherence of parallel lines; None without such lines."""
+        lines, isotropic = self.parallel_lines, self.isotropic
+        if lines is None or isotropic is None or self.levels.fault:
+            return None
+        return lines.estimates(self.levels.bands, IsotropicGround(isotropic.line))
+
     def frequency(self, wavelength: float) -> float:
         """f = v / lambda [Hz], NaN without a speed."""
         return math.nan if self.speed is None else self.speed / wavelength
+
+    @property
+    def force_in_motion(self) -> float:
+        """Rms change of the contact force by linear theory, over the load; NaN without mass and speed.
+
+        <F^2> = sum over bands of <r^2> abs(1 / (1/k + R_wheel + R_rail))^2, R the receptances -1 / (M w^2 - i c w) and
+        1 / (i w Z), r the levels through the filter of ridges, sin(k a_x) / (k a_x). Infinite at a resonance that
+        nothing damps.
+        """
+        if self.mass is None or self.speed is None:
+            return math.nan
+        edges, k = np.log(self.levels.bands.edges), self.contact.stiffness
+        q = np.exp(edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS))
+        omega, dashpot = q * self.speed, 2 * self.damping * math.sqrt(k * self.mass)
+        compliance = np.asarray(1 / k - 1 / (self.mass * omega**2 - 1j * dashpot * omega), dtype=np.complex128)
+        if self.impedance is not None:
+            compliance = compliance + 1 / (1j * omega * self.impedance.impedance(omega))
+        elif not self.damping and omega[0, 0] < math.sqrt(k / self.mass) < omega[-1, -1]:
+            return math.inf
+        passed = np.mean((np.sinc(q * self.contact.along / np.pi) / np.abs(compliance)) ** 2, axis=1)
+        power = MICROMETRE**2 * 10 ** (self.roughness_levels / 10)
+        return math.sqrt(float(np.sum(power * passed))) / self.load
+
+    @property
+    def resonance(self) -> float:
+        """Of wheel and rail on the contact spring [Hz]; NaN without a mass."""
+        if self.mass is None:
+            return math.nan
+        if self.impedance is None:
+            return math.sqrt(self.contact.stiffness / self.mass) / (2 * math.pi)
+        wheel = {"stiffness": self.contact.stiffness, "mass": self.mass}
+        return contact_resonance(impedance=self.impedance.impedance, **wheel) / (2 * math.pi)
 
     @property
     def statistic(self) -> str:
@@ -201,8 +293,30 @@ class RailScene(SceneDefaults):
         return np.array(self.levels.levels)
 
     def bands(self, quantity: str) -> FloatArray:
-        """2 pi over the nominal wavelengths [rad/m]."""
+        """2 pi over the nominal wavelengths [rad/m]; of sound power over v / f at nominal frequencies."""
+        if quantity == str(SOUND_POWER):
+            return 2 * math.pi * frequencies() / (self.speed or math.nan)
         return 2 * math.pi / self.levels.bands.nominal
+
+    def added_to_filter(self, quantity: str) -> tuple[FloatArray, FloatArray]:
+        """L_r [dB re 1 µm] in each band of a quantity, and what the quantity is over L_r + A3 [dB]."""
+        if quantity != str(SOUND_POWER) or self.speed is None:
+            over = 0.0 if quantity == str(EQUIVALENT_ROUGHNESS) else -self.roughness_levels
+            return self.roughness_levels, over + np.zeros(len(self.levels.bands))
+        return in_frequency(self.levels.levels, self.levels.bands.nominal, self.speed), self.sound_transfer.of_both
+
+    def no_answer(self, quantity: str) -> str:
+        """Why there is no sound power: no speed, or no roughness in its bands; empty of other quantities."""
+        if quantity != str(SOUND_POWER):
+            return ""
+        if self.speed is None:
+            return 'wheel.speed is missing, by which each wavelength has its frequency, as: speed = "80 km/h"'
+        if np.isnan(self.added_to_filter(quantity)[0]).all():
+            return (
+                f"wheel.speed must bring a wavelength of the roughness, {self.levels.bands.span}, to 50 Hz to 10 kHz, "
+                f"got {3.6 * self.speed:.4g} km/h"
+            )
+        return ""
 
     @property
     def error_source(self) -> str:
@@ -213,10 +327,16 @@ class RailScene(SceneDefaults):
         return MEASURED_ON_STRIPS
 
     def contact_force(self, comparison: Any) -> Any:
-        """A-weighted force by each model, where the wheel has a speed."""
+        """A-weighted force by each model, where the wheel has a speed: for files alone, and for one release."""
         from validation.railway.rail_columns import contact_force
 
         return contact_force(self, comparison)
+
+    def sound_power(self, comparison: Any) -> Any:
+        """Sound power by each model, where the wheel has a speed."""
+        from validation.railway.rail_columns import sound_power
+
+        return sound_power(self, comparison)
 
     def describe(self) -> Pairs:
         """Bodies, the contact that is assumed, motion, roughness, and what lies across."""
@@ -229,11 +349,20 @@ class RailScene(SceneDefaults):
             ("approach d", _short(contact.approach)),
             ("peak pressure p0", in_unit(contact.pressure, "pressure", digits=3)),
             ("motion", self._motion()),
+            *self._dynamics(),
             ("roughness", f"rms {_short(levels.rms)} over all bands: {self._source()}"),
             ("bands", f"{len(levels.bands)} one-third octaves, {levels.bands.span}"),
             ("rms slope h'", f"{slope:.3g} along the track, of all bands, h' a_x/d = {ratio:.3g}"),
             ("what lies across", self._structure()),
+            *(() if self.speed is None else (("sound power", self._sound()),)),
         )
+
+    def _sound(self) -> str:
+        """Which tables it is of, and which of them stand for a key that is left out."""
+        keys = {"rail.track": self.track, "wheel.transfer": self.transfer}
+        left_out = [key for key, value in keys.items() if value is None]
+        assumed = f"; {' and '.join(left_out)} left out" if left_out else ""
+        return f"{self.sound_transfer.in_words}{assumed}"
 
     def _bodies(self) -> Pairs:
         radius, load = f"radius {in_unit(self.radius, 'length')}", f"load {in_unit(self.load, 'force')} of one wheel"
@@ -248,6 +377,18 @@ class RailScene(SceneDefaults):
             return "none: wavelengths have no frequencies"
         mass = "" if self.mass is None else f"mass {in_unit(self.mass, 'mass')}"
         return ", ".join(filter(None, (f"speed {3.6 * self.speed:.5g} km/h", mass, damping_of(self.damping))))
+
+    def _dynamics(self) -> Pairs:
+        """The rail, the resonance and the force of a wheel with a mass; nothing of one without."""
+        if self.mass is None or self.speed is None:
+            return ()
+        rail, force = "rigid", self.force_in_motion
+        if self.impedance is not None:
+            z = abs(complex(self.impedance.impedance(2 * math.pi * self.resonance)))
+            rail = f"{self.impedance.description}, abs(Z) = {z:.3g} N s/m at the contact resonance"
+        rms = f"rms {100 * force:.3g} % of the load" if math.isfinite(force) else "unbounded, nothing damps it"
+        motion = f"contact resonance {self.resonance:.4g} Hz; force by linear theory {rms}"
+        return ("impedance of the rail", rail), ("wheel in motion", motion)
 
     def _source(self) -> str:
         if isinstance(self.roughness, MeasuredHeights):
@@ -265,6 +406,9 @@ class RailScene(SceneDefaults):
             "isotropic": "isotropic ground",
             "ridges": "ridges",
         }
+        if self.measured_structure is not None and self.parallel_lines is not None:
+            count = len(self.parallel_lines.positions)
+            return f"by the coherence of {count} lines: {in_words(self.measured_structure, self.levels.bands)}"
         if self.lateral_structure is None or isinstance(self.lateral_structure, str):
             return words[self.lateral_structure]
         angle = math.degrees(math.atan(self.lateral_structure))
@@ -301,6 +445,18 @@ class RailScene(SceneDefaults):
                 f"roughness is known in bands of {bands.span}: the others of {NominalBands().span} are missing, and "
                 "have no answer."
             )
+        if self.force_in_motion > MAX_FORCE:
+            yield (
+                f"in motion the contact force changes by {self.force_in_motion:.3g} of the load, root mean square by "
+                f"linear theory, more than {MAX_FORCE:g}: the wheel leaves the rail at times; the contact filter is "
+                "that of a constant load."
+            )
+        if (lines := self.parallel_lines) is not None and lines.shifts.any():
+            shown = ", ".join(f"{1e3 * shift:g}" for shift in lines.shifts)
+            yield (
+                f"lines are shifted along the track by about {shown} mm relative to the first: their coherence has "
+                "no lateral structure; cut them so that they begin at one place."
+            )
         yield from self._scatter()
         if isinstance(self.roughness, MeasuredHeights):
             yield from self.roughness.notes()
@@ -335,6 +491,22 @@ def _check_alpha(alpha: Any) -> None:
             f"rail.lateral_structure must be a number alpha from {LEAST_ALPHA:g} to {MOST_ALPHA:g}, waves within 6 to "
             f'84 degrees of the track, got {alpha:g}; "ridges" stands for less, "isotropic" for all directions'
         )
+
+
+def _check_transfer(scene: RailScene) -> None:
+    """Raises ValueError, TypeError for columns that tables G-3a and G-3b have not."""
+    if scene.track is not None and scene.track not in tracks():
+        raise ValueError(
+            f"rail.track must be one of {', '.join(map(quoted, tracks()))}, sleeper and pad, table G-3a of CNOSSOS-EU, "
+            f"got {shortened(scene.track)}; left out: {quoted(DEFAULT_TRACK)}"
+        )
+    if scene.transfer is not None and scene.transfer not in wheels():
+        raise ValueError(
+            f"wheel.transfer must be one of {', '.join(map(str, wheels()))}, diameters in mm of table G-3b of "
+            f"CNOSSOS-EU, got {shortened(scene.transfer)}; left out: the nearest to that of the wheel"
+        )
+    if scene.axles is not None and count("wheel.axles", scene.axles, least=1) > MOST_AXLES:
+        raise ValueError(f"wheel.axles must be at most {MOST_AXLES}, got {scene.axles}")
 
 
 def _check_bands(scene: RailScene) -> None:

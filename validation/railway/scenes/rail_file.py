@@ -4,6 +4,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.analysis.escapes import shortened
 from validation.engine.former_names import with_current_keys
 from validation.railway.scenes.level_files import levels_in
 from validation.railway.scenes.measured_lines import MeasuredLines, lines_in
@@ -12,13 +13,26 @@ from validation.railway.scenes.transverse_profile import TransverseProfile, both
 from validation.scenes.material import material_of
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import heights_of
-from validation.scenes.printable import shortened
-from validation.scenes.reader import POSITIVE, Reader, errors_of, table, value_of_one_key, values
+from validation.scenes.rail_impedance import read_impedance
+from validation.scenes.reader import (
+    NUMBER,
+    POSITIVE,
+    WHOLE,
+    Reader,
+    errors_of,
+    nonblank_text,
+    table,
+    value_of_one_key,
+    values,
+)
 from validation.scenes.units import in_unit, quantity
 
 OWN = {
-    "wheel": ("transverse_radius", "profile", "offset", "axle_load", "levels", "lines"),
-    "rail": ("crown_radius", "profile", "lateral_structure", "lateral_ratio", "across", "alpha", "levels", "lines"),
+    "wheel": ("transverse_radius", "profile", "offset", "axle_load", "transfer", "axles", "levels", "lines"),
+    "rail": (
+        *("crown_radius", "profile", "lateral_structure", "lateral_ratio", "across", "alpha", "track", "levels"),
+        "lines",
+    ),
 }
 """What stands in the scene of a rail alone."""
 RENAMED = {"rail.across": "rail.lateral_structure", "rail.alpha": "rail.lateral_ratio"}
@@ -59,7 +73,9 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "roughness": roughness,
         "lateral_structure": value_of_one_key(rail, "rail", ("lateral_structure", "lateral_ratio"), least=0),
         "notes": (*of_load, *of_roughness, *notes),
-        **{key: wheel[key] for key in ("speed", "mass", "damping") if key in wheel},
+        **{key: wheel[key] for key in ("speed", "mass", "damping", "transfer", "axles") if key in wheel},
+        **{key: rail[key] for key in ("track",) if key in rail},
+        "impedance": read_impedance(rail.get("impedance", "rigid"), {key: rail[key] for key in BEAM if key in rail}),
     }
     of_rail = value_of_one_key(rail, "rail", ("crown_radius", "profile"), least=0)
     of_wheel = value_of_one_key(wheel, "wheel", ("transverse_radius", "profile"), least=0)
@@ -132,7 +148,13 @@ def _combined(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
     levels, more = (each.levels if isinstance(each, MeasuredLines) else each for each in (rail, wheel))
     missing = [f"{1000 * w:g}" for w in levels.bands.nominal if w not in more.bands.nominal]
     note = f"the roughness of the wheel is not known at {', '.join(missing)} mm: that of the rail stands alone there."
-    return levels + more, (note,) if missing else ()
+    notes: tuple[str, ...] = (note,) if missing else ()
+    if isinstance(rail, MeasuredLines) and len(rail.positions) > 1:
+        notes += (
+            "the lateral structure of rail and wheel together is not measured by the lines of the rail: "
+            "rail.lateral_structure states it.",
+        )
+    return levels + more, notes
 
 
 def _across(name: str, value: object) -> Any:
@@ -142,6 +164,13 @@ def _across(name: str, value: object) -> Any:
     if isinstance(value, str):
         raise ValueError(f'{name} must be "ridges", "isotropic" or a number alpha, got {shortened(value)}')
     return POSITIVE(name, value)
+
+
+def _diameter(name: str, value: object) -> Any:
+    """A column of table G-3b in mm: a number, or a text with a unit."""
+    if isinstance(value, str):
+        return round(1e6 * quantity(name, value, "length")) / 1e3
+    return NUMBER(name, value)
 
 
 class RailReader:
@@ -155,5 +184,15 @@ class RailReader:
 
 LOADED = values("radius", "diameter", "transverse_radius", "load", "axle_load", "wheels_per_axle")
 WHEEL = LOADED | values("speed", "mass", "damping") | {"offset": partial(quantity, dimension="length")}
-RAIL = {**values("crown_radius"), "lateral_structure": _across, **values("lateral_ratio")}
+WHEEL |= {"transfer": _diameter, "axles": WHOLE}
+BEAM: dict[str, Reader] = {"bending_stiffness": POSITIVE, "mass_per_length": POSITIVE}
+"""N m^2 and kg/m, of a free beam."""
+RAIL: dict[str, Reader] = {
+    **values("crown_radius"),
+    "lateral_structure": _across,
+    **values("lateral_ratio"),
+    "impedance": lambda name, value: value,
+    "track": nonblank_text,
+    **BEAM,
+}
 """How each value of a scene file is read."""

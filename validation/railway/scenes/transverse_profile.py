@@ -11,9 +11,9 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import finite
+from validation.analysis.escapes import printable
 from validation.analysis.statistics import FloatArray
 from validation.scenes.number_table import NumberTable
-from validation.scenes.printable import printable
 from validation.scenes.reader import Reader, errors_of, table, values, yes_or_no
 from validation.scenes.table_files import FORM, heights_of_columns, read_scene_table, sentence_about
 from validation.scenes.units import LENGTHS, in_unit, unit_of

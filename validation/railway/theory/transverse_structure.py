@@ -155,6 +155,14 @@ class TransverseStructure(ABC):
     def waves_across(self, q: ArrayLike, *, semi_axis: float) -> int:
         """How many waves `mean_square` takes for each wavenumber."""
 
+    @abstractmethod
+    def coherence(self, q: ArrayLike, separation: float) -> FloatArray:
+        """int C(q, k_y) cos(k_y s) dk_y / int C(q, k_y) dk_y of two lines a distance s apart [-]; the shape of q.
+
+        It is real: their heights have the cross spectrum C_line times it. q: along the track, positive; separation: s,
+        zero or positive [m].
+        """
+
     def evaluations(self, *, edges: ArrayLike, semi_axes: tuple[float, float]) -> int:
         """How often `band_power` evaluates a filter: it goes with q a_x and q a_y up to 100, and no farther."""
         ends = np.asarray(edges, dtype=np.float64)
@@ -188,6 +196,9 @@ class Ridges(TransverseStructure):
     def waves_across(self, q: ArrayLike, *, semi_axis: float) -> int:
         return 1
 
+    def coherence(self, q: ArrayLike, separation: float) -> FloatArray:
+        return np.ones_like(np.asarray(q, dtype=np.float64))
+
 
 @dataclass(frozen=True)
 class WaveBand(TransverseStructure):
@@ -205,6 +216,10 @@ class WaveBand(TransverseStructure):
 
     def waves_across(self, q: ArrayLike, *, semi_axis: float) -> int:
         return int(self._slopes(np.asarray(q, dtype=np.float64)[..., np.newaxis], semi_axis)[1].size)
+
+    def coherence(self, q: ArrayLike, separation: float) -> FloatArray:
+        """sin(alpha q s) / (alpha q s)."""
+        return np.asarray(np.sinc(self.alpha * np.asarray(q, dtype=np.float64) * separation / math.pi))
 
     def _slopes(self, wave: FloatArray, semi_axis: float) -> tuple[FloatArray, FloatArray]:
         """Nodes k_y / k_x and weights over half of the band: the same for all waves, or of short ones a row a wave."""
@@ -262,6 +277,15 @@ class IsotropicGround(TransverseStructure):
     def waves_across(self, q: ArrayLike, *, semi_axis: float) -> int:
         return int(self._across(np.asarray(q, dtype=np.float64), semi_axis)[0].size)
 
+    def coherence(self, q: ArrayLike, separation: float) -> FloatArray:
+        """To 1e-3."""
+        along = np.asarray(q, dtype=np.float64)
+        if separation == 0:
+            return np.ones_like(along)
+        k, dk = self._across(along, separation)
+        density = self.c2d(np.hypot(along[..., np.newaxis], k))
+        return np.asarray(density @ (2 * dk * np.cos(k * separation)) / self.line_power(along))
+
     def _across(self, along: FloatArray, semi_axis: float) -> tuple[FloatArray, FloatArray]:
         """k_y and its weights."""
         # one set of nodes for all waves of a band: the longest has the sharpest C_2D, the shortest the farthest end
@@ -283,6 +307,49 @@ class IsotropicGround(TransverseStructure):
         # no filter, and so no period
         k, dk = gauss(_panels_across(q, math.sqrt(max(self.q_max**2 - q**2, 0.0)), math.inf))
         return 2 * float(dk @ self.c2d(np.hypot(q, k)))
+
+
+@dataclass(frozen=True)
+class BandedStructure(TransverseStructure):
+    """Another structure in each band along the track.
+
+    edges: of the bands, ascending, (bands + 1,) [rad/m]; structures: one a band. Longer and shorter waves have that of
+    the first and of the last band.
+    """
+
+    edges: tuple[float, ...]
+    structures: tuple[TransverseStructure, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.edges) != len(self.structures) + 1 or not (np.diff(self.edges) > 0).all():
+            raise ValueError(
+                f"edges must ascend, one more than structures, got {len(self.edges)} for {len(self.structures)}"
+            )
+
+    def _numbers(self, q: ArrayLike) -> NDArray[np.intp]:
+        """Of the band of each wavenumber."""
+        return np.searchsorted(self.edges[1:-1], np.asarray(q, dtype=np.float64), side="right")
+
+    def _in_each(self, q: ArrayLike, value: Callable[[TransverseStructure, FloatArray], FloatArray]) -> FloatArray:
+        along = np.asarray(q, dtype=np.float64)
+        numbers, values = self._numbers(along), np.empty_like(along)
+        for number in np.unique(numbers).tolist():
+            inside = numbers == number
+            values[inside] = value(self.structures[number], along[inside])
+        return values
+
+    def mean_square(self, q: ArrayLike, transfer: Filter, *, semi_axis: float) -> FloatArray:
+        return self._in_each(q, lambda own, along: own.mean_square(along, transfer, semi_axis=semi_axis))
+
+    def waves_across(self, q: ArrayLike, *, semi_axis: float) -> int:
+        along = np.asarray(q, dtype=np.float64)
+        numbers = self._numbers(along)
+        each = [(self.structures[n], along[numbers == n]) for n in np.unique(numbers).tolist()]
+        counts: list[int] = [own.waves_across(of_own, semi_axis=semi_axis) for own, of_own in each]
+        return max(counts)
+
+    def coherence(self, q: ArrayLike, separation: float) -> FloatArray:
+        return self._in_each(q, lambda own, along: own.coherence(along, separation))
 
 
 def has_isotropic_surface(line: LineSpectrum) -> bool:

@@ -3,14 +3,11 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from validation.analysis.claim_text import listed
-from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
-from validation.analysis.number_text import half_open_text, level_as_factor, level_in_per_cent
+from validation.analysis.evidence import OF_NUMBERS, Evidence, Number, Place, Verdict, placed
+from validation.analysis.number_text import enumeration, half_open_text, level_as_factor, level_in_per_cent
 from validation.analysis.ranges import VerdictRange, ends_of, verdict_ranges
-from validation.analysis.verdict import OF_NUMBERS
-from validation.report.answers.question import Alternative, Printed, Question
+from validation.report.answers.question import TIMES, Alternative, Printed, Question
 from validation.report.answers.questions import QUESTIONS
-from validation.report.answers.seconds import TIMES
 from validation.report.answers.strip import EARLIER_WORDS, Cell, Source, span
 from validation.report.section import Section
 
@@ -150,6 +147,7 @@ def _strip(cells: Sequence[Cell]) -> list[StripCell]:
 
 
 def _strip_cell(cell: Cell) -> StripCell:
+    """The cell as the strip prints it, with the text of its place."""
     both = cell.place if isinstance(cell.place, tuple) else None
     return StripCell(span([cell.place]), cell.verdict, cell.alone, both, cell.by_condition)
 
@@ -211,7 +209,7 @@ def _verdict_range(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
     ranges = [part for part in ranges if part.verdict is verdict]
     if len(ranges) > 1 and all(len(part.places) == 1 and isinstance(part.places[0], float) for part in ranges):
         texts = [f"{span(part.places)}{_alone(part)}" for part in ranges]
-        return f"at {placed(over, listed(texts))}"
+        return f"at {placed(over, enumeration(texts))}"
     return " and ".join(f"{_span_of_group(part.places, cells, over)}{_alone(part)}" for part in ranges)
 
 

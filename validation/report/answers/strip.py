@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from validation.analysis.claim_text import alone_text, conditions_text, listed
+from validation.analysis.claim_text import alone_text, conditions_text
 from validation.analysis.claims import Choice
-from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
-from validation.analysis.number_text import interval_text
+from validation.analysis.evidence import OF_NUMBERS, Evidence, Number, Place, Verdict, placed
+from validation.analysis.number_text import enumeration, interval_text
 from validation.analysis.ranges import SeparatingCondition, by_place, common_verdict, ends_of, separating_conditions
-from validation.analysis.verdict import OF_NUMBERS
 
 EARLIER_WORDS = {Verdict.WITHIN: "yes", Verdict.OUTSIDE: "no", Verdict.INCONCLUSIVE: "open"}
 """Of a place of a strip, in results.json of schema 1; schema 2 keeps them for one release."""
@@ -94,7 +93,7 @@ def _joined_overlaps(numbers_by_place: dict[Place, list[Number]]) -> dict[Place,
 def span(places: Sequence[Place], name: str = "") -> str:
     """ "Fbar = 0.1 to 10", "h' a/d = 0.3", "-10 to 10 dB over ISO 3095", "0.1 to 1", or names."""
     if isinstance(places[0], str):
-        return listed(list(dict.fromkeys(places)))
+        return enumeration(list(dict.fromkeys(places)))
     low, high = min(ends_of(place)[0] for place in places), max(ends_of(place)[1] for place in places)
     text = interval_text(low, high, 2)
     return placed(name, text) if name else text
