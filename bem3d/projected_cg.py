@@ -157,7 +157,7 @@ class Operator(Protocol):
         """Make what is negative zero, in place; what that adds may be taken from cells nearby."""
 
 
-class Iterate:
+class Descent:
     """Where the iteration is: pressure p and distance w = g + u - s on the candidate cells, and the slope there.
 
     pressure, w: overwritten by `move`; free, uphill: cells whose pressure may change, and w on them; aim: the pressure
@@ -282,7 +282,7 @@ def projected_cg(
     Source: the projection and the free cells as in Polonsky and Keer, Wear 231 (1999) 206; going on without restart as
     in Bugnicourt et al., Tribol. Lett. 66 (2018) 29; one application an iteration by the memory is ours.
     """
-    at, memory = Iterate(pressure, separation, load), Memory(pressure.size)
+    at, memory = Descent(pressure, separation, load), Memory(pressure.size)
     while True:
         # 1. residual: before the step, so that the caller may stop without another application
         yield State(at.pressure, at.residual())
