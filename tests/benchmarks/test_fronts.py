@@ -180,10 +180,8 @@ def test_error_and_time_of_a_row_are_of_one_setting():
     told = {key: (row["setting"], row["error"], row["± sample"], row["time [s]"]) for key, row in rows.items()}
     assert told[10, MDR] == ("8 cells", pytest.approx(8), pytest.approx(1), 1e-5)
     assert told[3, MDR] == told[1, MDR] == ("32 cells", pytest.approx(2), pytest.approx(0.5), 4e-5)
-    assert told[10, BEM_METHOD] == (f"{BEM}: 8 cells", pytest.approx(9), pytest.approx(2), 1e-3)
-    assert (
-        told[3, BEM_METHOD] == told[1, BEM_METHOD] == (f"{BEM}: 16 cells", pytest.approx(0.5), pytest.approx(0.1), 1e-2)
-    )
+    assert told[10, BEM_METHOD] == ("8 cells", pytest.approx(9), pytest.approx(2), 1e-3)
+    assert told[3, BEM_METHOD] == told[1, BEM_METHOD] == ("16 cells", pytest.approx(0.5), pytest.approx(0.1), 1e-2)
     assert [rows[t, MDR]["a setting within"] for t in (10, 3, 1)] == [True, True, False]
     verdicts = [Verdict.WITHIN, Verdict.WITHIN, Verdict.OUTSIDE]
     assert [rows[t, MDR]["verdict"] for t in (10, 3, 1)] == verdicts

@@ -171,7 +171,10 @@ def _row_of_setting(
     of_error = {"error": point.error, "± sample": point.half_width, "± reference": point.band}
     return {
         **{"scene": point.scene, "quantity": point.quantity, "unit": point.unit, "tolerance": scale * tolerance},
-        **{"method": method, "setting": point.setting if method != BEM_METHOD else f"{point.method}: {point.setting}"},
+        **{
+            "method": method,
+            "setting": f"{point.setting}, extrapolated" if point.method == EXTRAPOLATED else point.setting,
+        },
         **{name: scale * value for name, value in of_error.items()},
         **{"verdict": point.verdict(tolerance).value, "a setting within": meets},
         **{"time [s]": seconds(point), "time from [s]": low, "time to [s]": high},
