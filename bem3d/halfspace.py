@@ -202,12 +202,12 @@ class HalfSpace:
 
     def like(self, *, shape: tuple[int, int], spacing: OneOrTwo | None = None) -> HalfSpace:
         """Half-space of the same material on another grid. The last few are kept, with their plans."""
-        wanted = replace(self, shape=shape, spacing=self.spacing if spacing is None else spacing)
-        if wanted == self:
+        grid = shape, self.steps if spacing is None else spacing
+        if grid == (self.shape, self.steps):
             return self
         with KEEPING:
-            kept = self._relatives.pop(wanted, wanted)
-            self._relatives[wanted] = kept
+            kept = self._relatives.pop(grid, None) or replace(self, shape=shape, spacing=grid[1])
+            self._relatives[grid] = kept
             while len(self._relatives) > GRIDS_KEPT:
                 del self._relatives[next(iter(self._relatives))]
         return kept
@@ -216,14 +216,14 @@ class HalfSpace:
         """Keep a relative no longer, if it is so large that its plans cost less than their memory."""
         if relative.shape[0] * relative.shape[1] > CACHED_CELLS:
             with KEEPING:
-                self._relatives.pop(relative, None)
+                self._relatives.pop((relative.shape, relative.spacing), None)
 
     @cached_property
     def _memory(self) -> SpectrumMemory:
         return SpectrumMemory()
 
     @cached_property
-    def _relatives(self) -> dict[HalfSpace, HalfSpace]:
+    def _relatives(self) -> dict[tuple[tuple[int, int], OneOrTwo], HalfSpace]:
         return {}
 
     def __reduce__(self) -> tuple[Any, ...]:

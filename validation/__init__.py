@@ -28,6 +28,7 @@ MODULES = {
     "contact_law": "judging.registry",
     "contact_solver": "judging.registry",
     "force_spectrum": "judging.registry",
+    "interface_model": "judging.registry",
     "judge": "judging.judge",
     "load_scene": "scenes.load",
     "load_wheel_scene": "scenes.dynamic_wheel",

@@ -18,6 +18,7 @@ from validation.judging.registry import contact_filter as contact_filter
 from validation.judging.registry import contact_law as contact_law
 from validation.judging.registry import contact_solver as contact_solver
 from validation.judging.registry import force_spectrum as force_spectrum
+from validation.judging.registry import interface_model as interface_model
 from validation.judging.registry import profile_spectrum as profile_spectrum
 from validation.judging.registry import rolling_model as rolling_model
 from validation.judging.registry import stiffness_model as stiffness_model

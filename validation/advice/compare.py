@@ -114,8 +114,8 @@ class Comparison:
     scene : IndentationScene, RollingScene or RailScene
         The scene.
     quantity : str
-        "stiffness", "force-rms", "force-spectrum", "acceleration", "acceleration-rms", "contact-filter",
-        "equivalent-roughness" or "sound-power".
+        "stiffness", "contact-area", "mean-gap", "force-rms", "force-spectrum", "acceleration", "acceleration-rms",
+        "contact-filter", "equivalent-roughness" or "sound-power".
     selection : Selection
         Models, estimates and answers in full.
     in_decibels : bool

@@ -16,6 +16,7 @@ from validation.advice.hierarchy import ALIKE, Candidate, bias
 from validation.advice.sound_power import ContactForce
 from validation.advice.tolerance import decibels, percentage
 from validation.analysis.evidence import Table, table_of
+from validation.analysis.spectra import assessed_bands
 from validation.engine.engine import FloatArray
 from validation.scenes.scene import parameters_of
 
@@ -198,7 +199,7 @@ def counted_bands(comparison: Comparison, candidate: Candidate) -> NDArray[np.bo
     level = (
         comparison.a3_of(candidate) if comparison.roughness.size else np.zeros(np.size(comparison.value_of(candidate)))
     )
-    return np.asarray(level > comparison.scene_quantity.counted_above)
+    return assessed_bands(level, comparison.scene_quantity.counted_above)
 
 
 def shown_models(comparison: Comparison) -> list[str]:

@@ -6,7 +6,10 @@ messages stand on one line of bounded length.
 
 import codecs
 import json
+import os
+import re
 import reprlib
+import sys
 import unicodedata
 from collections.abc import Iterable
 from typing import Any
@@ -22,6 +25,18 @@ def printable(text: object, *, lines: bool = False) -> str:
     return "".join(
         c if (lines and c == "\n") or _harmless(c) else c.encode("unicode_escape").decode() for c in str(text)
     )
+
+
+def coloured(text: str) -> str:
+    """A text whose words for verdicts are coloured where standard output is a terminal and NO_COLOR is not set.
+
+    The words say all that the colours do.
+    """
+    if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" or not sys.stdout.isatty():
+        return text
+    for colour, words in COLOURS.items():
+        text = re.sub(words, lambda word, colour=colour: f"\x1b[{colour}m{word[0]}\x1b[0m", text)  # type: ignore[misc]
+    return text
 
 
 def is_printable(text: str) -> bool:
@@ -47,6 +62,12 @@ def _harmless(character: str) -> bool:
     return character.isprintable() or unicodedata.category(character) == "Zs"
 
 
+COLOURS = {
+    31: r"(?:\boutside tolerance\b|\bno result\b|\brejected(?=: )|\bcheck not passed\b|\bexit status [1-9]\b)",
+    33: r"\brefuted(?=: )|\binconclusive(?=: )",
+    32: r"\bwithin tolerance\b|\bsupported(?: within limits)?(?=: )|(?<=  )selected\b|\bexit status 0\b",
+}
+"""Numbers of colours of a terminal, red, yellow and green, and the words that have them."""
 MAX_CHARACTERS = 120
 """Characters of a value in a message, at the most."""
 

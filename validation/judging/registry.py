@@ -125,6 +125,17 @@ KINDS: Mapping[str, OfferedKind] = {
         needs=("q", "roughness"),
         shapes=_as("q"),
     ),
+    "interface_model": OfferedKind(
+        ("pressure", "modulus", "roughness", "quantity"),
+        'a number of a rough interface without edges under a mean pressure [Pa]: by quantity, "area_fraction", the '
+        'true contact area over the nominal area; "mean_gap" [m], the distance of the mean planes; or '
+        '"stiffness", -dp/du [Pa/m]. NotImplementedError where it has none',
+        "def linear(pressure, roughness, quantity):\n"
+        "    if quantity != 'stiffness':\n"
+        "        raise NotImplementedError('a stiffness alone')\n"
+        "    return pressure / (0.48 * roughness.rms)",
+        needs=("pressure", "quantity"),
+    ),
     "contact_law": OfferedKind(
         ("approach", "position"),
         "force [N] of a wheel with a mass",
@@ -397,5 +408,6 @@ force_spectrum: Named = _decorator("force_spectrum")
 rolling_model: Named = _decorator("rolling_model")
 contact_filter: Named = _decorator("contact_filter")
 profile_spectrum: Named = _decorator("profile_spectrum")
+interface_model: Named = _decorator("interface_model")
 contact_law: Named = _decorator("contact_law")
 contact_solver: NamedSolver = _decorator("contact_solver")

@@ -23,8 +23,8 @@ class SceneQuantity:
     key: in scripts, on the command line and in files; unit: of its amplitude; reference: of its decibels, in SI units;
     in_bands: whether it is a level in each one-third octave, else one number; of_motion: whether the wheel has to move;
     by_worst_band: whether a tolerance holds in each band that counts, else over the root mean square of all;
-    counted_above: level above which a band counts [dB]; averaged_itself: whether realisations have the mean of their
-    values, else that of their logarithms.
+    counted_above: level above which a band counts, up to the first that is not [dB]; averaged_itself: whether
+    realisations have the mean of their values, else that of their logarithms.
     """
 
     key: str
@@ -41,11 +41,15 @@ class SceneQuantity:
 
 
 STIFFNESS = SceneQuantity("stiffness", "N/m", averaged_itself=True)
+CONTACT_AREA = SceneQuantity("contact-area", "m²", averaged_itself=True)
+MEAN_GAP = SceneQuantity("mean-gap", "m", averaged_itself=True)
 FORCE_RMS = SceneQuantity("force-rms", "N")
 FORCE_SPECTRUM = SceneQuantity("force-spectrum", "N", in_bands=True)
 ACCELERATION = SceneQuantity("acceleration", "m/s²", in_bands=True, of_motion=True)
 ACCELERATION_RMS = SceneQuantity("acceleration-rms", "m/s²", of_motion=True)
 PRESSED = (STIFFNESS,)
+INTERFACE = (CONTACT_AREA, MEAN_GAP)
+"""Of a rough punch: the true contact area, and the mean distance of the deformed faces over the side."""
 ROLLING = (FORCE_RMS, FORCE_SPECTRUM)
 MOVING = (ACCELERATION, ACCELERATION_RMS)
 

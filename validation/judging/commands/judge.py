@@ -8,7 +8,7 @@ from pathlib import Path
 
 from validation.advice.tolerance import tolerance_of
 from validation.analysis.contents import as_json, folder_names
-from validation.analysis.escapes import printable
+from validation.analysis.escapes import coloured, printable
 from validation.engine.files import write_output
 from validation.judging.judge import Judgement, callers_named, judged, numbers_as_csv
 from validation.judging.source_files import GROUP, installed
@@ -66,7 +66,7 @@ def judge(arguments: argparse.Namespace) -> Exit:
             judgements.append(judged(caller, tolerance))
             if folder:
                 folder.replace(judgements[-1].files())
-            print(printable(judgements[-1].summary(), lines=True), end="\n\n", flush=True)
+            print(coloured(printable(judgements[-1].summary(), lines=True)), end="\n\n", flush=True)
     _write(judgements, arguments)
     if not any(judgement.answered for judgement in judgements):
         return Exit.NOT_CONVERGED

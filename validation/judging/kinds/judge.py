@@ -175,6 +175,7 @@ JUDGES: Mapping[str, str] = {
     "rolling_model": "rolling:judged",
     "contact_filter": "rolling:judged_filter",
     "profile_spectrum": "profiles:judged",
+    "interface_model": "interfaces:judged",
     "contact_law": "laws:judged",
 }
 """Module beside this one, and its function, by the decorator; a contact solver is judged among the benchmarks."""
