@@ -12,7 +12,7 @@ from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, EdgeWarning, ResolutionWarning, UnitsWarning
 from bem3d.few_cells import FewCellsContact, TooManyCellsError, indent_few_cells
 from bem3d.halfspace import HalfSpace
-from bem3d.indentation import indent
+from bem3d.indentation import LoadPath, indent
 from bem3d.polonsky_keer import solve_polonsky_keer
 from bem3d.problem import Problem
 from bem3d.rolling import Rolling, roll, rolling_force
@@ -34,6 +34,7 @@ __all__ = [
     "FixedContactArea",
     "FrozenContact",
     "HalfSpace",
+    "LoadPath",
     "Problem",
     "ResolutionWarning",
     "Rolling",

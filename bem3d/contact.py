@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from bem3d.checks import FloatArray
+from bem3d.checks import FloatArray, count
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units
 from bem3d.problem import Problem
@@ -143,6 +143,31 @@ class Contact(ReadOnly):
         if self.problem.half_space.periodic:
             return float(self.problem.gap.mean()) - self.approach
         return float(self.gap.mean())
+
+    def pressure_histogram(self, bins: int = 50) -> tuple[FloatArray, FloatArray]:
+        """Distribution of the pressure over the contact area.
+
+        Parameters
+        ----------
+        bins : int, optional
+            Intervals of equal width from zero to the largest pressure, at least 1.
+
+        Returns
+        -------
+        density, edges : ndarray, shapes (bins,) and (bins + 1,)
+            P(p) [1/Pa] over the contact, sum(density * diff(edges)) = 1, and the ends of the intervals [Pa]. Over the
+            nominal area it is times ``area`` over that. Both are zero without contact.
+
+        Raises
+        ------
+        TypeError, ValueError
+            If ``bins`` is no whole number of at least 1.
+        """
+        bins, under = count("bins", bins, least=1), self.pressure[self.pressure > 0]
+        if not under.size:
+            return np.zeros(bins), np.zeros(bins + 1)
+        density, edges = np.histogram(under, bins, (0.0, float(under.max())), density=True)
+        return density, edges
 
     def plot(self, ax: Axes | None = None, *, quantity: Literal["pressure", "gap"] = "pressure") -> Axes:
         """Draw a map of the pressure or of the gap, with a scale.

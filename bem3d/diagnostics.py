@@ -223,7 +223,7 @@ def diagnose_waves(values: FloatArray, q: FloatArray, steps: tuple[float, float]
     )
 
 
-def warn(diagnostics: tuple[ContactWarning, ...]) -> None:
-    """Issue them as warnings of the caller of the public function that found them."""
+def warn(diagnostics: tuple[ContactWarning, ...], *, level: int = 3) -> None:
+    """Issue them as warnings of the caller of the public function that found them. level: frames from here to it."""
     for diagnostic in diagnostics:
-        warnings.warn(diagnostic, stacklevel=3)
+        warnings.warn(diagnostic, stacklevel=level)

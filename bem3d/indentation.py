@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import cast
@@ -11,16 +12,101 @@ from numpy.typing import ArrayLike
 
 from bem3d.checks import FloatArray, Loads, count, finite, fraction, not_negative
 from bem3d.contact import Contact
-from bem3d.diagnostics import warn
+from bem3d.convergence import ConvergenceError
+from bem3d.diagnostics import ContactWarning, warn
 from bem3d.halfspace import HalfSpace
 from bem3d.problem import Problem
 from bem3d.progress import Progress, steps
+from bem3d.results import kept, span
 from bem3d.solver import raise_if_failed, solve_checked
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 from bem3d.window_solve import InitialGuess
 
 STIFFNESS_TOLERANCE = 1e-4
 """Relative residual of the frozen contacts, unless another is given."""
+
+
+Solved = tuple[Contact, tuple[ContactWarning, ...]]
+"""A contact, and what no load before has warned of."""
+
+
+class LoadPath(Iterator[Contact]):
+    """Contacts along a load path, each solved when it is taken, none kept. Made by `indent`.
+
+    Its arrays solve the loads that are left, whose contacts cannot be taken then.
+
+    Attributes
+    ----------
+    loads : ndarray, shape (loads,)
+        Prescribed approaches [m] or forces [N]; no solve.
+    approach, force : ndarray, shape (loads,)
+        Of each contact [m], [N].
+    stiffness : ndarray, shape (loads,)
+        dF/dd [N/m], NaN of a contact that has not converged. ValueError without ``stiffness=True`` of `indent`.
+
+    Raises
+    ------
+    ConvergenceError
+        If a contact does not reach the tolerance, at each later use again.
+
+    Examples
+    --------
+    >>> body = bem3d.HalfSpace(shape=(8, 8), spacing=1e-4, modulus=1e11)
+    >>> path = bem3d.indent(body, np.zeros((8, 8)), approaches=[1e-7, 2e-7], indenter_ends_at_edge=True)
+    >>> bool(np.allclose(path.force[1], 2 * path.force[0])), path.loads * 1e7
+    (True, array([1., 2.]))
+    """
+
+    def __init__(self, contacts: Iterator[Solved], loads: FloatArray, *, has_stiffness: bool) -> None:
+        self.loads = kept(loads)
+        self._contacts, self._has_stiffness = contacts, has_stiffness
+        self._numbers: list[tuple[float, float, float]] = []
+        self._failure: ConvergenceError | None = None
+
+    def __repr__(self) -> str:
+        return f"LoadPath({self.loads.size} loads, {span(self.loads, 'm or N')}, {len(self._numbers)} solved)"
+
+    def __iter__(self) -> LoadPath:
+        return self
+
+    def __next__(self) -> Contact:
+        return self._take(level=4)
+
+    def _take(self, *, level: int) -> Contact:
+        """The next contact; StopIteration behind the last. level: frames from `warn` to the line of the user."""
+        if self._failure is not None:
+            raise self._failure
+        try:
+            contact, warnings = next(self._contacts)
+        except ConvergenceError as failure:
+            self._failure = failure
+            raise
+        warn(warnings, level=level)
+        stiffness = math.nan if contact.frozen is None else contact.frozen.stiffness
+        self._numbers.append((contact.approach, contact.force, stiffness))
+        return contact
+
+    @property
+    def approach(self) -> FloatArray:
+        """Of each contact [m]."""
+        return self._column(0)
+
+    @property
+    def force(self) -> FloatArray:
+        """Of each contact [N]."""
+        return self._column(1)
+
+    @property
+    def stiffness(self) -> FloatArray:
+        """Incremental stiffness of each contact [N/m]."""
+        if not self._has_stiffness:
+            raise ValueError("stiffness of a path needs stiffness=True of indent, got False")
+        return self._column(2)
+
+    def _column(self, number: int) -> FloatArray:
+        while len(self._numbers) < self.loads.size:
+            self._take(level=5)
+        return kept(np.array([row[number] for row in self._numbers]))
 
 
 def indent(
@@ -36,7 +122,7 @@ def indent(
     max_iterations: int = 500,
     raise_on_failure: bool = True,
     progress: Progress = False,
-) -> Iterator[Contact]:
+) -> LoadPath:
     """Press along a path of approaches or forces, loading or unloading, one contact each.
 
     Parameters
@@ -54,10 +140,11 @@ def indent(
     progress : bool or callable, optional
         True shows "3 of 40" on the standard error stream after each load. A function is called with both numbers.
 
-    Yields
-    ------
-    Contact
-        At each load; begun from the last along the tangent p + f dd, or else along the secant through the last two.
+    Returns
+    -------
+    LoadPath
+        An iterator over a `Contact` at each load, solved when it is taken; begun from the last along the tangent
+        p + f dd, or else along the secant through the last two. Its arrays have the numbers of all loads.
 
     Raises
     ------
@@ -78,11 +165,14 @@ def indent(
     >>> contacts = bem3d.indent(body, (x[:, None] ** 2 + x**2) / (2 * 0.1), approaches=[2e-6, 4e-6], stiffness=True)
     >>> [f"{contact.stiffness():.3g} N/m" for contact in contacts]
     ['9.01e+07 N/m', '1.26e+08 N/m']
+    >>> contacts.force, contacts.stiffness / 1e7
+    (array([118.9, 336.7]), array([ 9.01, 12.63]))
     """
     problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     frozen = fraction("stiffness_tolerance", stiffness_tolerance) if stiffness else None
-    return _path(problems, frozen, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
+    contacts = _path(problems, frozen, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
+    return LoadPath(contacts, np.array([_prescribed(problem) for problem in problems]), has_stiffness=stiffness)
 
 
 def _problems(
@@ -115,7 +205,7 @@ def _path(
     max_iterations: int,
     raise_on_failure: bool,
     solved: Callable[[], object],
-) -> Iterator[Contact]:
+) -> Iterator[Solved]:
     past: tuple[Contact, ...] = ()
     warned: set[str] = set()
     frozen: FixedContactArea | None = None
@@ -134,11 +224,11 @@ def _path(
             )
             contact = replace(contact, frozen=frozen)
         found = contact.diagnose()
-        warn(tuple(warning for warning in found if str(warning) not in warned))
+        new = tuple(warning for warning in found if str(warning) not in warned)
         warned |= {str(warning) for warning in found}
         past = (*past[-1:], contact) if contact.converged else ()
         solved()
-        yield contact
+        yield contact, new
 
 
 def _predicted(problem: Problem, past: tuple[Contact, ...]) -> InitialGuess | None:

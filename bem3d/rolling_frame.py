@@ -79,9 +79,9 @@ class Track(ReadOnly):
         cells, profile = " x ".join(map(str, self.height.shape)), self.transverse_profile
         radius, spacing = (pair("m", *both) for both in (self.radii, self.steps))
         across = f"radius={radius}" if profile is None else f"radius={span(self.radii[0], 'm')}"
-        across += "" if profile is None else f", transverse_profile={span(profile, 'm')}"
+        across += "" if profile is None else f", profile={span(profile, 'm')}"
         height, modulus = span(self.height, "m"), span(self.modulus, "Pa")
-        return line(f"Track({cells} cells of {spacing}, height={height}, {across}, modulus={modulus})")
+        return line(f"Track({cells} of {spacing}, height={height}, {across}, modulus={modulus})")
 
     @cached_property
     def highest(self) -> float:

@@ -15,10 +15,11 @@ from bem3d import contact, convolution
 from bem3d.results import map_of
 from bem3d.tangent_stiffness import solve_fixed_area
 from tests.oracles import dense_operator
-from tests.seeded import catches
+from tests.seeded import catches, module_with
 from tests.strategies import pressed
 
 TIGHT = 1e-12
+histogram = np.histogram
 exponents = st.integers(-30, 30)
 
 
@@ -232,3 +233,27 @@ def test_a_map_of_nothing_else_is_refused(monkeypatch):
         contact.plot("here")
     monkeypatch.setattr(pyplot, "subplots", lambda **_: (None, Figure().add_subplot()))
     assert contact.plot().images
+
+
+@catches("a distribution of pressures that are too low").at(
+    "bem3d.contact.np", module_with(np, histogram=lambda under, *rest, **named: histogram(under * 0.9, *rest, **named))
+)
+def test_the_distribution_of_the_pressure_is_that_of_hertz():
+    """P(p) = 2 p / p0^2 of a sphere, by which p / p0 has a mean of 2/3 and a mean square of 1/2.
+
+    A cell at the edge has the pressure of the part that touches: 3 % on 20 cells to a radius.
+    """
+    x = (np.arange(65) - 32) / 20
+    body = bem3d.HalfSpace(shape=(65, 65), spacing=1 / 20, modulus=1.0)
+    contact = bem3d.solve(body, (x[:, np.newaxis] ** 2 + x**2) / 2, approach=1.0)
+    density, edges = contact.pressure_histogram(200)
+    middle, share = (edges[1:] + edges[:-1]) / 2, density * np.diff(edges)
+    assert share.sum() == pytest.approx(1.0, rel=1e-12) and edges[-1] == contact.pressure.max()
+    assert (share * middle).sum() * contact.area == pytest.approx(contact.force, rel=5e-3)
+    highest = 2 / np.pi
+    assert (share * middle).sum() / highest == pytest.approx(2 / 3, rel=0.03)
+    assert (share * middle**2).sum() / highest**2 == pytest.approx(1 / 2, rel=0.03)
+    empty = bem3d.solve(body, np.zeros((65, 65)), force=0.0)
+    assert [values.tolist() for values in empty.pressure_histogram(2)] == [[0.0, 0.0], [0.0, 0.0, 0.0]]
+    with pytest.raises(ValueError, match="bins must be at least 1, got 0"):
+        contact.pressure_histogram(0)

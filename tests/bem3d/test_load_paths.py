@@ -143,3 +143,64 @@ def test_the_error_of_a_stiffness_is_some_tens_of_times_the_square_of_its_tolera
 def test_a_stiffness_tolerance_is_a_fraction():
     with pytest.raises(ValueError, match="stiffness_tolerance must lie between 0 and 1, both excluded, got 0"):
         bem3d.indent(BODY, GAP, forces=FORCES, stiffness=True, stiffness_tolerance=0.0)
+
+
+RIDGE = 1e-7 * np.abs(np.arange(12.0)[:, np.newaxis] - 5.0) * np.ones(10)
+SMALL = bem3d.HalfSpace(shape=(12, 10), spacing=1e-4, modulus=1e11)
+FORCES = [1.0, 3.0, 2.0]
+TAKE = bem3d.LoadPath._take
+
+
+@catches("a path that forgets the contacts that were taken").at(
+    "bem3d.indentation.LoadPath._column", lambda path, number: np.array([NUMBERS[number](contact) for contact in path])
+)
+def test_arrays_of_a_path_are_those_of_its_contacts():
+    contacts = list(bem3d.indent(SMALL, RIDGE, forces=FORCES, stiffness=True))
+    expected = [np.array([number(contact) for contact in contacts]) for number in NUMBERS]
+    for taken in range(4):
+        path = bem3d.indent(SMALL, RIDGE, forces=FORCES, stiffness=True)
+        assert [next(path).force for _ in range(taken)] == expected[1][:taken].tolist()
+        for _ in range(2):
+            arrays = path.approach, path.force, path.stiffness
+            assert all(np.array_equal(*pair) for pair in zip(arrays, expected, strict=True))
+        assert path.loads.tolist() == FORCES and list(path) == []
+        assert not any(array.flags.writeable for array in (*arrays, path.loads))
+
+
+NUMBERS = (lambda contact: contact.approach, lambda contact: contact.force, lambda contact: contact.stiffness())
+
+
+def test_a_path_solves_what_is_asked_and_no_more():
+    solved = []
+    path = bem3d.indent(SMALL, RIDGE, forces=FORCES, progress=lambda done, total: solved.append(done))
+    assert path.loads.size == 3 and "3 loads" in repr(path) and len(repr(path)) < 100
+    assert solved == []
+    next(path)
+    assert solved == [1]
+    with pytest.raises(ValueError, match="stiffness of a path needs stiffness=True of indent, got False"):
+        _ = path.stiffness
+    assert solved == [1] and path.approach.size == 3 and solved == [1, 2, 3]
+
+
+def test_a_path_that_has_failed_has_no_numbers():
+    path = bem3d.indent(SMALL, RIDGE, forces=FORCES, max_iterations=1, tolerance=1e-12)
+    for _ in range(2):
+        with pytest.raises(bem3d.ConvergenceError):
+            _ = path.force
+    with pytest.raises(bem3d.ConvergenceError):
+        next(path)
+    loose = bem3d.indent(
+        SMALL, RIDGE, forces=FORCES, stiffness=True, max_iterations=1, tolerance=1e-12, raise_on_failure=False
+    )
+    assert np.isnan(loose.stiffness).all() and loose.force.size == 3
+
+
+@catches("a warning at a line of the package").at(
+    "bem3d.indentation.LoadPath._take", lambda path, *, level: TAKE(path, level=level - 1)
+)
+def test_a_path_warns_at_the_line_of_its_user():
+    flat = np.zeros((12, 10))
+    for taken in (next, list, lambda path: path.force):
+        with pytest.warns(bem3d.EdgeWarning) as caught:
+            taken(bem3d.indent(SMALL, flat, forces=[1.0, 2.0]))
+        assert [warning.filename for warning in caught] == [__file__]
