@@ -143,7 +143,7 @@ def test_the_tables_of_your_own_scene_make_a_scene(tmp_path):
     own.write_text(f'name = "mine"\n[punch]\nside = "1 mm"\nload = "10 N"\n{material}\n{roughness}', encoding="utf-8")
     scene = validation.load_scene(own)
     assert scene.modulus == pytest.approx(210e9 / 2 / (1 - 0.3**2))
-    assert scene.roughness.rms == pytest.approx(1e-6)
+    assert scene.ground.rms == pytest.approx(1e-6)
 
 
 def test_the_table_of_measured_heights_makes_a_scene(tmp_path):
