@@ -38,8 +38,8 @@ class Convolution(ABC):
         return cells // self.shape[1] * self.padded[1] + cells % self.shape[1]
 
     @abstractmethod
-    def at(self, places: IndexArray, values: FloatArray) -> FloatArray:
-        """The convolution of a field that is zero but at these places, read back there alone."""
+    def at(self, places: IndexArray, values: FloatArray, out: FloatArray | None = None) -> FloatArray:
+        """The convolution of a field that is zero but at these places, read back there alone, into `out` if given."""
 
 
 class SmallConvolution(Convolution):
@@ -50,6 +50,7 @@ class SmallConvolution(Convolution):
         self._lock = threading.Lock()
         # the padding along the first axis is not stored
         self._rows = aligned((shape[0], padded[1]), np.float64)
+        self._flat = self._rows.reshape(-1)
 
     @abstractmethod
     def _convolve(self) -> None:
@@ -63,13 +64,14 @@ class SmallConvolution(Convolution):
             self._convolve()
             return np.array(self._rows[filled])
 
-    def at(self, places: IndexArray, values: FloatArray) -> FloatArray:
+    def at(self, places: IndexArray, values: FloatArray, out: FloatArray | None = None) -> FloatArray:
         with self._lock:
-            flat = self._rows.ravel()
-            flat[:] = 0.0
+            flat = self._flat
+            flat.fill(0.0)
             flat[places] = values
             self._convolve()
-            return np.asarray(flat[places])
+            # "clip" takes straight into `out`; all places are inside
+            return np.asarray(flat.take(places, out=out, mode="clip"))
 
 
 class PlainConvolution(SmallConvolution):
@@ -80,13 +82,14 @@ class PlainConvolution(SmallConvolution):
 
     def __init__(self, symbol: FloatArray, *, shape: Shape, planning: Planning):
         super().__init__(shape, shape)
-        self._symbol = _halfplane(symbol, shape)
-        self._spectrum = aligned(self._symbol.shape, np.complex128)
-        self._forward, self._inverse = planned(self._rows, self._spectrum, (0, 1), planning)
+        half = _halfplane(symbol, shape)
+        spectrum = aligned(half.shape, np.complex128)
+        self._parts, self._symbols = parts(spectrum), np.repeat(half, 2, axis=1)
+        self._forward, self._inverse = planned(self._rows, spectrum, (0, 1), planning)
 
     def _convolve(self) -> None:
         self._forward()
-        self._spectrum *= self._symbol
+        self._parts *= self._symbols
         self._inverse()
 
 
@@ -98,17 +101,18 @@ class CachedConvolution(SmallConvolution):
 
     def __init__(self, symbol: FloatArray, *, shape: Shape, padded: Shape, planning: Planning):
         super().__init__(shape, padded)
-        self._symbol = _halfplane(symbol, padded)
-        self._spectrum = aligned(self._symbol.shape, np.complex128)
-        filled = self._spectrum[: shape[0]]
+        half = _halfplane(symbol, padded)
+        spectrum = aligned(half.shape, np.complex128)
+        filled, self._below = spectrum[: shape[0]], spectrum[shape[0] :]
+        self._parts, self._symbols = parts(spectrum), np.repeat(half, 2, axis=1)
         self._forward, self._inverse = planned(self._rows, filled, (1,), planning)
-        self._down, self._up = planned(self._spectrum, self._spectrum, (0,), planning)
+        self._down, self._up = planned(spectrum, spectrum, (0,), planning)
 
     def _convolve(self) -> None:
         self._forward()
-        self._spectrum[self.shape[0] :] = 0.0
+        self._below.fill(0.0)
         self._down()
-        np.multiply(self._spectrum, self._symbol, out=self._spectrum)
+        self._parts *= self._symbols
         self._up()
         self._inverse()
 
@@ -134,6 +138,11 @@ def planned(
 def aligned(shape: Shape, dtype: type[np.float64] | type[np.complex128]) -> NDArray[Any]:
     """Numbers where FFTW is fastest. Its package is imported here alone: that takes longer than all others."""
     return np.asarray(import_pyfftw().empty_aligned(shape, dtype=dtype))
+
+
+def parts(spectrum: ComplexArray) -> FloatArray:
+    """Real and imaginary parts, side by side along the last axis: a product of reals takes a third of the time."""
+    return spectrum.view(np.float64)
 
 
 def _halfplane(quadrant: FloatArray, padded: Shape) -> FloatArray:

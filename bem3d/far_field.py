@@ -14,6 +14,9 @@ MOST_STEPS = 50
 CHANGED = 0.1
 """Part of the free cells that may change before the stiffness of the contact is taken anew."""
 
+Near = Callable[..., FloatArray]
+"""Displacement to pressure, into an array if one is named."""
+
 
 class FarField:
     """Approximate inverse on cells that may touch, with what they do to each other from afar.
@@ -27,7 +30,7 @@ class FarField:
     Source: the split of Ewald; the two levels are ours.
     """
 
-    def __init__(self, half_space: HalfSpace, cells: IndexArray, near: Callable[[FloatArray], FloatArray]):
+    def __init__(self, half_space: HalfSpace, cells: IndexArray, near: Near):
         self._near, self._far = near, half_space.far
         (nx, ny), (mx, my) = half_space.shape, self._far.shape
         row, column = np.divmod(cells, ny)
@@ -36,17 +39,32 @@ class FarField:
         # no cell is free yet, so that the first call takes the springs
         self._springs = np.zeros(cells.size)
 
-    def __call__(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
+    def __call__(self, displacement: FloatArray, free: BoolArray, out: FloatArray | None = None) -> FloatArray:
         """Nearly the pressure that makes this displacement on the free cells, and none elsewhere."""
         # 1. springs S 1: an application of S, which is spared while the contact is nearly the same. Their error
         # costs iterations alone: steps are made conjugate by their images, whatever the preconditioner
         if np.count_nonzero(free != self._free) > CHANGED * np.count_nonzero(free):
-            self._free, self._springs = free, np.maximum(self._near(free.astype(np.float64)), 0.0)
+            self._free, self._springs = free.copy(), np.maximum(self._near(free.astype(np.float64)), 0.0)
         springs = self._springs * free
         # 2. what the far field leaves on the blocks
         y = self._settled(self._sums(springs * displacement), self._sums(springs))
         # 3. near pressure without that which the far field takes over
-        return np.asarray(self._near(displacement) - springs * y.ravel()[self._block])
+        springs *= y.ravel().take(self._block)
+        pressure = self._near(displacement, out)
+        pressure -= springs
+        return pressure
+
+    def cut(self, pressure: FloatArray) -> None:
+        """Make what is negative zero, in place, by a scale on each block that keeps its force if that presses.
+
+        Where many cells leave the contact, what the cut adds is felt from afar, the more the larger the grid: balanced
+        over the whole contact alone, it would spoil the steps of several iterations.
+        """
+        forces = self._sums(pressure)
+        np.maximum(pressure, 0.0, out=pressure)
+        raised = self._sums(pressure)
+        scale = np.divide(np.maximum(forces, 0.0), raised, out=np.ones_like(raised), where=raised > 0)
+        pressure *= scale.ravel().take(self._block)
 
     def _sums(self, vector: FloatArray) -> FloatArray:
         """Z^T v."""

@@ -208,13 +208,16 @@ class _Dense:
     def stiffness(self) -> float:
         return 1 / float(self.matrix[0, 0])
 
-    def displacement(self, pressure: FloatArray) -> FloatArray:
+    def displacement(self, pressure: FloatArray, out: FloatArray | None = None) -> FloatArray:
         self.products += self.matrix.size
-        return dots(self.matrix, pressure)
+        return dots(self.matrix, pressure, out)
 
-    def inverse(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
+    def inverse(self, displacement: FloatArray, free: BoolArray, out: FloatArray) -> FloatArray:
         # cells far apart are moved mostly by their own pressure, so that the diagonal is near enough
-        return self.stiffness * displacement
+        return np.multiply(displacement, self.stiffness, out=out)
+
+    def cut(self, pressure: FloatArray) -> None:
+        np.maximum(pressure, 0.0, out=pressure)
 
 
 @lru_cache(maxsize=1)

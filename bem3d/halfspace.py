@@ -16,6 +16,7 @@ from bem3d import kernel
 from bem3d.blocked_convolution import BlockedConvolution, SpectrumMemory
 from bem3d.checks import FloatArray, OneOrTwo, boolean, count, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import CachedConvolution, Convolution, PlainConvolution, Planning
+from bem3d.results import pair, span
 from bem3d.threads import cores
 
 KEEPING = threading.Lock()
@@ -91,6 +92,14 @@ class HalfSpace:
             raise ValueError(f'planning must be "estimate" or "measure", got {self.planning!r}')
         if self.threads != "all":
             object.__setattr__(self, "threads", count('threads, unless "all",', self.threads))
+
+    def __repr__(self) -> str:
+        cells, planning = (
+            " x ".join(map(str, self.shape)),
+            f", planning={self.planning!r}" * (self.planning != "estimate"),
+        )
+        more = ", periodic" * self.periodic + planning + f", threads={self.threads}" * (self.threads != 1)
+        return f"HalfSpace({cells} cells of {pair('m', *self.steps)}, modulus={span(self.modulus, 'Pa')}{more})"
 
     def displacement(self, pressure: ArrayLike) -> FloatArray:
         """Displacement under a pressure: one application of the operator.
@@ -193,12 +202,12 @@ class HalfSpace:
 
     def like(self, *, shape: tuple[int, int], spacing: OneOrTwo | None = None) -> HalfSpace:
         """Half-space of the same material on another grid. The last few are kept, with their plans."""
-        wanted = replace(self, shape=shape, spacing=self.spacing if spacing is None else spacing)
-        if wanted == self:
+        grid = shape, self.steps if spacing is None else spacing
+        if grid == (self.shape, self.steps):
             return self
         with KEEPING:
-            kept = self._relatives.pop(wanted, wanted)
-            self._relatives[wanted] = kept
+            kept = self._relatives.pop(grid, None) or replace(self, shape=shape, spacing=grid[1])
+            self._relatives[grid] = kept
             while len(self._relatives) > GRIDS_KEPT:
                 del self._relatives[next(iter(self._relatives))]
         return kept
@@ -207,14 +216,14 @@ class HalfSpace:
         """Keep a relative no longer, if it is so large that its plans cost less than their memory."""
         if relative.shape[0] * relative.shape[1] > CACHED_CELLS:
             with KEEPING:
-                self._relatives.pop(relative, None)
+                self._relatives.pop((relative.shape, relative.spacing), None)
 
     @cached_property
     def _memory(self) -> SpectrumMemory:
         return SpectrumMemory()
 
     @cached_property
-    def _relatives(self) -> dict[HalfSpace, HalfSpace]:
+    def _relatives(self) -> dict[tuple[tuple[int, int], OneOrTwo], HalfSpace]:
         return {}
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from bem3d.checks import FloatArray, boolean, field, finite, not_negative
+from bem3d.diagnostics import typical_slope
 from bem3d.halfspace import HalfSpace
 from bem3d.results import ReadOnly, kept, span
 
@@ -80,10 +82,15 @@ class Problem(ReadOnly):
                     f"got {self.approach:.6g}: beyond it the contact is full and only a force sets the pressure"
                 )
 
-    @property
+    @cached_property
     def first_touch(self) -> float:
         """The approach at which contact begins: min(gap) [m]."""
         return float(self.gap.min())
+
+    @cached_property
+    def slope(self) -> float:
+        """`typical_slope` of the gap."""
+        return typical_slope(self.gap, self.half_space.steps)
 
     @property
     def depth(self) -> float | None:

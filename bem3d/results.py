@@ -1,11 +1,16 @@
-"""What results have in common: arrays of their own, read-only, and the numbers in the line that each prints."""
+"""What results have in common: read-only arrays of their own, the numbers in the line that each prints, and maps."""
+
+from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from bem3d.checks import FloatArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Kept = TypeVar("Kept")
 
@@ -53,3 +58,24 @@ def pair(unit: str, along: float, across: float) -> str:
 def short(value: float, digits: int) -> str:
     """So many digits, and no zeros in the exponent: 1.23e-6."""
     return f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
+
+
+def map_of(values: FloatArray, steps: tuple[float, float], name: str, unit: str, title: str, axis: Axes | None) -> Axes:
+    """Values of cells as a map with a scale, on axes of a user or on those of a new figure; NaN is left empty."""
+    # imported where a figure is asked for: a solver needs none
+    import matplotlib.pyplot as plt
+    from matplotlib.axes import Axes
+    from matplotlib.ticker import EngFormatter
+
+    if axis is None:
+        axis = plt.subplots(layout="constrained")[1]
+    if not isinstance(axis, Axes):
+        raise TypeError(f"ax must be an Axes of matplotlib, or None for a new figure, got {type(axis).__name__}")
+    ends = [cells * step for cells, step in zip(values.shape, steps, strict=True)]
+    image = axis.imshow(values.T, origin="lower", extent=(0.0, ends[0], 0.0, ends[1]), cmap="cividis")
+    axis.figure.colorbar(image, ax=axis, label=name, format=EngFormatter(unit))
+    for each, label in ((axis.xaxis, "x"), (axis.yaxis, "y")):
+        each.set_major_formatter(EngFormatter("m"))
+        each.set_label_text(label)
+    axis.set_title(title, loc="left")
+    return axis

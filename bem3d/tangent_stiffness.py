@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -154,16 +155,19 @@ def _conjugate_gradients(
     if pressure.any():
         remainder -= cells.displacement(pressure)
         applications = 1
-    direction, along_before = np.zeros(remainder.size), 1.0
+    # the first takes the place of M r, then of a change of the pressure or of r
+    change, direction, yielding = np.empty(remainder.size), np.zeros(remainder.size), np.empty(remainder.size)
+    along_before = 1.0
     history = [_length(remainder)]
     while history[-1] > tolerance and len(history) <= max_iterations:
-        preconditioned = cells.inverse(remainder, everywhere)
-        along = dot(remainder, preconditioned)
-        direction = preconditioned + along / along_before * direction
-        yielding = cells.displacement(direction)
+        cells.inverse(remainder, everywhere, out=change)
+        along = dot(remainder, change)
+        direction *= along / along_before
+        direction += change
+        cells.displacement(direction, out=yielding)
         step = along / dot(direction, yielding)
-        pressure = pressure + step * direction
-        remainder = remainder - step * yielding
+        pressure += np.multiply(direction, step, out=change)
+        remainder -= np.multiply(yielding, step, out=change)
         along_before = along
         history.append(_length(remainder))
     whole = np.zeros(half_space.shape)
@@ -179,4 +183,4 @@ def _conjugate_gradients(
 
 def _length(remainder: FloatArray) -> float:
     """|1 - K p| / |1|."""
-    return float(np.sqrt(np.mean(remainder**2)))
+    return math.sqrt(dot(remainder, remainder) / remainder.size)

@@ -55,16 +55,25 @@ class Candidates:
         """Pressure on a cell alone that moves it by a unit [Pa/m]."""
         return 1 / self._half_space.self_compliance
 
-    def displacement(self, pressure: FloatArray) -> FloatArray:
+    def displacement(self, pressure: FloatArray, out: FloatArray | None = None) -> FloatArray:
         """u = K p."""
-        return self._direct.at(self._in_direct, pressure)
+        return self._direct.at(self._in_direct, pressure, out)
 
-    def inverse(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
+    def inverse(self, displacement: FloatArray, free: BoolArray, out: FloatArray | None = None) -> FloatArray:
         """Nearly the pressure on the free cells that makes this displacement."""
-        return self._near(displacement) if self._far is None else self._far(displacement, free)
+        if self._far is None:
+            return self._near(displacement, out)
+        return self._far(displacement, free, out)
 
-    def _near(self, displacement: FloatArray) -> FloatArray:
-        return self._inverse.at(self._in_inverse, displacement)
+    def cut(self, pressure: FloatArray) -> None:
+        """Make what is negative zero, in place; on large grids the force on each block of cells stays."""
+        if self._far is None:
+            np.maximum(pressure, 0.0, out=pressure)
+        else:
+            self._far.cut(pressure)
+
+    def _near(self, displacement: FloatArray, out: FloatArray | None = None) -> FloatArray:
+        return self._inverse.at(self._in_inverse, displacement, out)
 
     def compress(self, field: FloatArray) -> FloatArray:
         """The vector of a field."""
@@ -82,6 +91,6 @@ def dot(a: FloatArray, b: FloatArray) -> float:
     return float(np.einsum("i,i", a, b))
 
 
-def dots(rows: FloatArray, b: FloatArray) -> FloatArray:
+def dots(rows: FloatArray, b: FloatArray, out: FloatArray | None = None) -> FloatArray:
     """Inner products of each row with a vector, alike."""
-    return np.asarray(np.einsum("ij,j->i", rows, b))
+    return np.asarray(np.einsum("ij,j->i", rows, b, out=out))

@@ -1,13 +1,16 @@
 """What is checked where values enter: one clear sentence, or a value that can be trusted."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+Numbers = NDArray[Any] | Sequence[Any]
+"""Several numbers, in any shape; one number is a float."""
 Spectrum = Callable[[FloatArray], FloatArray]
 OneOrTwo = float | tuple[float, float]
 """One number for both axes, or two."""
@@ -70,6 +73,11 @@ def finite_array(name: str, values: ArrayLike, *, ndim: int | None = None, copy:
     if broken:
         raise ValueError(f"{name} must be finite, got {broken} NaN or infinite values out of {array.size}")
     return array
+
+
+def number_or_array(values: FloatArray) -> float | FloatArray:
+    """A float where there is no axis, as for one wavenumber, else the array."""
+    return values if np.ndim(values) else float(values)
 
 
 @contextmanager

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Generic, TypeVar, overload
+from typing import TYPE_CHECKING, Generic, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +12,9 @@ from numpy.typing import ArrayLike
 from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
 from mdr.diagnostics import diagnose_heights, diagnose_load, warn
 from mdr.results import ReadOnlyArrays, span
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Value = TypeVar("Value", float, FloatArray)
 
@@ -80,6 +83,39 @@ class LoadCurve(ReadOnlyArrays):
     def __repr__(self) -> str:
         springs = f"{self.approach.size} springs of {span(self.spring, 'N/m')}"
         return f"LoadCurve({springs}, approach={span(self.approach, 'm')}, force={span(self.force, 'N')})"
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the force as a function of the approach from the first touch, exact between all points.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, by default those of a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, approach [m] along x and force [N] along y. Several curves may share them.
+
+        Raises
+        ------
+        TypeError
+            If ``ax`` is no Axes.
+        """
+        # imported where a figure is asked for: springs need none
+        import matplotlib.pyplot as plt
+        from matplotlib.axes import Axes
+        from matplotlib.ticker import EngFormatter
+
+        if ax is None:
+            ax = plt.subplots(layout="constrained")[1]
+        if not isinstance(ax, Axes):
+            raise TypeError(f"ax must be an Axes of matplotlib, or None for a new figure, got {type(ax).__name__}")
+        ax.plot(self.approach, self.force)
+        ax.xaxis.set_major_formatter(EngFormatter("m"))
+        ax.yaxis.set_major_formatter(EngFormatter("N"))
+        ax.set(xlabel="approach", ylabel="force")
+        return ax
 
     @overload
     def at_approach(self, approach: float) -> LoadPoint[float]: ...

@@ -15,11 +15,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from mdr.checks import FloatArray, Spectrum, callable_spectrum, density, doubles, finite_array, held, positive
+from mdr.checks import (
+    FloatArray,
+    Numbers,
+    Spectrum,
+    callable_spectrum,
+    density,
+    doubles,
+    finite_array,
+    held,
+    number_or_array,
+    positive,
+)
 from mdr.spectrum import gauss_legendre
 
 NODES = 24
@@ -27,14 +38,20 @@ PANEL_RATIO = 1.4
 """Largest ratio of both ends of a panel of the quadrature, for power laws."""
 
 
+@overload
+def rolling_spectrum(q: float, c2d: Spectrum, *, edges: Sequence[float], contact_radius: float = math.inf) -> float: ...
+@overload
 def rolling_spectrum(
-    q: ArrayLike, c2d: Spectrum, *, edges: Sequence[float], contact_radius: float = math.inf
-) -> FloatArray:
+    q: Numbers, c2d: Spectrum, *, edges: Sequence[float], contact_radius: float = math.inf
+) -> FloatArray: ...
+def rolling_spectrum(
+    q: float | Numbers, c2d: Spectrum, *, edges: Sequence[float], contact_radius: float = math.inf
+) -> float | FloatArray:
     """Input spectrum with which springs have the force level of an isotropic surface on the half-space.
 
     Parameters
     ----------
-    q : array_like
+    q : float or array_like
         Wavenumbers along the track, of any sign [rad/m]. Zero needs a finite ``contact_radius``.
     c2d : callable
         Isotropic spectrum C_2D(q) of the surface [m^4], smooth between the ``edges``, zero outside.
@@ -45,7 +62,7 @@ def rolling_spectrum(
 
     Returns
     -------
-    ndarray
+    float or ndarray
         C_1D, shape of ``q`` [m^3]. It is for rolling alone: it keeps neither the height nor the gradient of the
         surface.
 
@@ -79,7 +96,7 @@ def rolling_spectrum(
         held(flat, ends[-1] ** 2)
         values = [_across(one, c2d, ends, flat) for one in wavenumber.ravel().tolist()]
         held(*values)
-    return np.array(values).reshape(wavenumber.shape)
+    return number_or_array(np.array(values).reshape(wavenumber.shape))
 
 
 def _across(q: float, c2d: Spectrum, edges: list[float], flat: float) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
+from typing import overload
 
 import numpy as np
 import scipy
@@ -15,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import (
     FloatArray,
+    Numbers,
     Spectrum,
     callable_spectrum,
     count,
@@ -23,8 +25,10 @@ from mdr.checks import (
     finite,
     finite_array,
     held,
+    number_or_array,
     positive,
 )
+from mdr.results import short
 
 # The wave at q_min = 2 pi / L carries most of the height; rounding must not push it out of the band.
 BAND_TOLERANCE = 1e-9
@@ -32,19 +36,25 @@ BAND_TOLERANCE = 1e-9
 PLATEAU_FRACTION = 1e-8
 
 
-def geike(q: ArrayLike, c2d: ArrayLike | Spectrum) -> FloatArray:
+@overload
+def geike(q: float, c2d: float | Spectrum) -> float: ...
+@overload
+def geike(q: Numbers, c2d: ArrayLike | Spectrum) -> FloatArray: ...
+@overload
+def geike(q: float, c2d: Numbers) -> FloatArray: ...
+def geike(q: float | Numbers, c2d: ArrayLike | Spectrum) -> float | FloatArray:
     """Geike's rule: the 1D spectrum with every moment of an isotropic 2D spectrum.
 
     Parameters
     ----------
-    q : array_like
+    q : float or array_like
         Angular wavenumbers, of any sign [rad/m].
     c2d : array_like or callable
         Isotropic spectrum C_2D [m^4]: values at ``q``, or a callable of abs(q).
 
     Returns
     -------
-    ndarray
+    float or ndarray
         C_1D [m^3], of the shape to which ``q`` and ``c2d`` broadcast.
 
     Raises
@@ -71,22 +81,28 @@ def geike(q: ArrayLike, c2d: ArrayLike | Spectrum) -> FloatArray:
     with doubles(q=_largest(wavenumber), c2d=_largest(values)):
         mapped = np.pi * wavenumber * values
         held(mapped)
-    return mapped
+    return number_or_array(mapped)
 
 
-def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
+@overload
+def inverse_geike(q: float, c1d: float | Spectrum) -> float: ...
+@overload
+def inverse_geike(q: Numbers, c1d: ArrayLike | Spectrum) -> FloatArray: ...
+@overload
+def inverse_geike(q: float, c1d: Numbers) -> FloatArray: ...
+def inverse_geike(q: float | Numbers, c1d: ArrayLike | Spectrum) -> float | FloatArray:
     """Isotropic 2D spectrum whose 1D spectrum by Geike's rule is given.
 
     Parameters
     ----------
-    q : array_like
+    q : float or array_like
         Angular wavenumbers, not zero [rad/m].
     c1d : array_like or callable
         Spectrum C_1D [m^3]: values at ``q``, or a callable of abs(q).
 
     Returns
     -------
-    ndarray
+    float or ndarray
         C_2D(q) = C_1D(q) / (pi abs(q)) [m^4], of the shape to which ``q`` and ``c1d`` broadcast.
 
     Raises
@@ -112,15 +128,19 @@ def inverse_geike(q: ArrayLike, c1d: ArrayLike | Spectrum) -> FloatArray:
     with doubles(q=_largest(wavenumber), c1d=_largest(values)):
         mapped: FloatArray = values / (np.pi * wavenumber)
         held(mapped, np.pi * wavenumber)
-    return mapped
+    return number_or_array(mapped)
 
 
-def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -> FloatArray:
+@overload
+def line_trace(q: float, c2d: Spectrum, *, q_max: float, nodes: int = 400) -> float: ...
+@overload
+def line_trace(q: Numbers, c2d: Spectrum, *, q_max: float, nodes: int = 400) -> FloatArray: ...
+def line_trace(q: float | Numbers, c2d: Spectrum, *, q_max: float, nodes: int = 400) -> float | FloatArray:
     """Spectrum along a straight line through an isotropic surface.
 
     Parameters
     ----------
-    q : array_like
+    q : float or array_like
         Angular wavenumbers along the line, of any sign [rad/m].
     c2d : callable
         Isotropic spectrum C_2D(q) [m^4], smooth up to ``q_max`` and zero beyond.
@@ -131,7 +151,7 @@ def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -
 
     Returns
     -------
-    ndarray
+    float or ndarray
         C_line, shape of ``q`` [m^3].
 
     Raises
@@ -164,7 +184,7 @@ def line_trace(q: ArrayLike, c2d: Spectrum, *, q_max: float, nodes: int = 400) -
         total = np.hypot(wavenumber[..., np.newaxis], across)
         integral: FloatArray = np.sum(_values("c2d", c2d, total) * weight, axis=-1) * reach
         held(integral)
-    return integral
+    return number_or_array(integral)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -214,17 +234,37 @@ class SelfAffine:
         with doubles(q_min=self.q_min, q_max=self.q_max, rms=self.rms):
             held(self._level, positive=True)
 
-    def c2d(self, q: ArrayLike) -> FloatArray:
+    def __repr__(self) -> str:
+        ends = ", ".join(f"{name}={short(getattr(self, name), 5)}" for name in ("hurst", "q_min", "q_max", "rms"))
+        return f"SelfAffine({ends})"
+
+    @overload
+    def c2d(self, q: float) -> float: ...
+    @overload
+    def c2d(self, q: Numbers) -> FloatArray: ...
+    def c2d(self, q: float | Numbers) -> float | FloatArray:
         """Isotropic spectrum C_2D(abs(q)) of the surface, shape of ``q`` [m^4]."""
-        q, inside = self._in_band(q)
+        return number_or_array(self._density(np.abs(finite_array("q", q))))
+
+    def _density(self, q: FloatArray) -> FloatArray:
+        """C_2D at q >= 0 [m^4]."""
+        inside = self._in_band(q)
         power = (np.where(inside, q, self.q_min) / self.q_min) ** (-2 * self.hurst - 2)
         return np.where(inside, self._level * power, 0.0)
 
-    def c1d(self, q: ArrayLike) -> FloatArray:
+    @overload
+    def c1d(self, q: float) -> float: ...
+    @overload
+    def c1d(self, q: Numbers) -> FloatArray: ...
+    def c1d(self, q: float | Numbers) -> float | FloatArray:
         """Spectrum of Geike's rule, C_1D(q) = pi abs(q) C_2D(abs(q)), shape of ``q`` [m^3]."""
         return geike(q, self.c2d)
 
-    def line(self, q: ArrayLike) -> FloatArray:
+    @overload
+    def line(self, q: float) -> float: ...
+    @overload
+    def line(self, q: Numbers) -> FloatArray: ...
+    def line(self, q: float | Numbers) -> float | FloatArray:
         """Spectrum along a straight line through the surface, shape of ``q`` [m^3].
 
         Notes
@@ -232,19 +272,19 @@ class SelfAffine:
         `line_trace` of C_2D: C_line(q) = A abs(q)^(-2H-1) int t^(H-1/2) (1-t)^(-1/2) dt, t = (q/s)^2, over
         (q/q_max)^2 < t < min(1, (q/q_min)^2): an incomplete beta function. Below q_min it is a plateau, not zero.
         """
-        q, _ = self._in_band(q)
-        flat = q < PLATEAU_FRACTION * self.q_min
-        q = np.where(flat, PLATEAU_FRACTION * self.q_min, np.minimum(q, self.q_max))
-        low, high = (q / self.q_max) ** 2, np.minimum(1.0, (q / self.q_min) ** 2)
+        along = np.abs(finite_array("q", q))
+        flat = along < PLATEAU_FRACTION * self.q_min
+        along = np.where(flat, PLATEAU_FRACTION * self.q_min, np.minimum(along, self.q_max))
+        low, high = (along / self.q_max) ** 2, np.minimum(1.0, (along / self.q_min) ** 2)
         b, c = self.hurst + 0.5, 0.5
         # near t = 1 the complement keeps the digits that the difference of two values near one would lose
         upper = scipy.special.betainc(c, b, 1 - low)
         between = np.where(high < 1, scipy.special.betainc(b, c, high) - scipy.special.betainc(b, c, low), upper)
         with doubles(q_min=self.q_min, rms=self.rms):
             whole = scipy.special.beta(b, c)
-            trace = self._level * self.q_min * (q / self.q_min) ** (-2 * self.hurst - 1) * whole * between
+            trace = self._level * self.q_min * (along / self.q_min) ** (-2 * self.hurst - 1) * whole * between
             held(trace)
-        return np.asarray(trace, dtype=np.float64)
+        return number_or_array(np.asarray(trace, dtype=np.float64))
 
     @property
     def _level(self) -> float:
@@ -252,11 +292,9 @@ class SelfAffine:
         lost_above = -math.expm1(-2 * self.hurst * math.log(self.q_max / self.q_min))
         return self.hurst * self.rms**2 / (math.pi * self.q_min**2 * lost_above)
 
-    def _in_band(self, q: ArrayLike) -> tuple[FloatArray, NDArray[np.bool_]]:
-        wavenumber = np.abs(finite_array("q", q))
-        return wavenumber, (wavenumber >= self.q_min * (1 - BAND_TOLERANCE)) & (
-            wavenumber <= self.q_max * (1 + BAND_TOLERANCE)
-        )
+    def _in_band(self, q: FloatArray) -> NDArray[np.bool_]:
+        """Where q >= 0 lies between the cut-offs."""
+        return (q >= self.q_min * (1 - BAND_TOLERANCE)) & (q <= self.q_max * (1 + BAND_TOLERANCE))
 
 
 @cache

@@ -1,6 +1,10 @@
 """What scripts of other people rely on: names of `validation`, the result of a comparison, the command beside it."""
 
 import ast
+import copy
+import csv
+import inspect
+import pickle
 import subprocess
 import sys
 from functools import cache
@@ -15,8 +19,10 @@ from validation.__main__ import main
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
 from validation.advice.scene_model import Answer
+from validation.advice.tolerance import Tolerance
 from validation.engine.street import HOUSES
 from validation.scenes.rolling import RollingQuantity
+from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, ErrorEstimate
 
 SPHERE = validation.load_scene("sphere")
@@ -32,7 +38,7 @@ def spectrum():
 def test_every_name_is_there(name):
     assert getattr(validation, name) is not None
     assert name in dir(validation)
-    assert validation.MODULES[name].split(".")[0] in {"report", "benchmarks", "scenes", *HOUSES}
+    assert validation.MODULES[name].split(".")[0] in {"analysis", "report", "benchmarks", "scenes", *HOUSES}
 
 
 def test_the_stub_says_the_same():
@@ -40,6 +46,10 @@ def test_the_stub_says_the_same():
     imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
     said = {name.asname: node.module.removeprefix("validation.") for node in imports for name in node.names}
     assert said == validation.MODULES
+
+
+def test_completion_shows_the_face_alone():
+    assert {name for name in dir(validation) if not name.startswith("__")} == set(validation.MODULES)
 
 
 def test_an_unknown_name_is_an_attribute_error():
@@ -57,7 +67,7 @@ def test_importing_the_face_imports_nothing_else():
 def test_a_number_comes_in_si_units_with_its_relative_error():
     result = validation.compare(SPHERE, tolerance=0.01)
     assert (result.quantity, result.model, result.met, result.unit) == ("stiffness", "closed form", True, "N/m")
-    assert result.value == pytest.approx([SPHERE.stiffness])
+    assert type(result.value) is float and result.value == pytest.approx(SPHERE.stiffness)
     assert (result.error, result.wavenumbers.size) == (0.0, 0)
     (first,) = (model for model in result.models if model.name == "closed form")
     assert (first.status, first.error, first.reason) == ("accepted", 0.0, "exact for a smooth body")
@@ -95,7 +105,7 @@ def comparison(status, *, failed="", quantity="stiffness"):
 )
 def test_a_missed_tolerance_leaves_the_best_value():
     result = comparison("not accurate enough")
-    assert (result.met, result.model, result.value.tolist(), result.error) == (False, "model", [2.0], 0.3)
+    assert (result.met, result.model, result.value, result.error) == (False, "model", 2.0, 0.3)
     assert (result.models[0].status, result.models[0].cost) == ("not accurate enough", 2.0)
 
 
@@ -111,15 +121,45 @@ def test_without_an_answer_there_is_no_number(quantity):
     ("arguments", "error", "sentence"),
     [
         (("sphere",), TypeError, "scene must be what load_scene returns, got str"),
-        ((SPHERE, "force-rms"), ValueError, "quantity must be one of stiffness for scene 'Smooth sphere'"),
-        ((SPHERE, None, 0.0), ValueError, "tolerance must be"),
-        ((SPHERE, None, 0.1, -1), ValueError, "seed must be at least 0, got -1"),
-        ((SPHERE, None, 0.1, 0.5), TypeError, "seed must be a whole number, got 0.5"),
+        (
+            (SPHERE, {"quantity": "force-rms"}),
+            ValueError,
+            "quantity must be one of stiffness for scene 'Smooth sphere'",
+        ),
+        ((SPHERE, 0.0), ValueError, "tolerance must be"),
+        ((SPHERE, "10 dBa"), ValueError, "tolerance must be as .* got '10 dBa'"),
+        ((SPHERE, {"seed": -1}), ValueError, "seed must be at least 0, got -1"),
+        ((SPHERE, {"seed": 0.5}), TypeError, "seed must be a whole number, got 0.5"),
+        ((SPHERE, "10 %", 1), TypeError, "compare takes scene and tolerance by place, .* got 3 places"),
     ],
 )
 def test_bad_input_is_refused_in_one_sentence(arguments, error, sentence):
+    places = [argument for argument in arguments if not isinstance(argument, dict)]
+    named = next((argument for argument in arguments if isinstance(argument, dict)), {})
     with pytest.raises(error, match=sentence):
-        validation.compare(*arguments)
+        validation.compare(*places, **named)
+
+
+@catches("a tolerance in the second place that is not read").at(
+    "validation.advice.compare.tolerance_of", lambda tolerance: Tolerance(0.1)
+)
+def test_a_tolerance_stands_in_the_second_place():
+    scene = validation.load_scene("rolling_wheel")
+    for text, relative in (("3 %", 0.03), ("1 dB", 10 ** (1 / 20) - 1), (0.2, 0.2)):
+        result = validation.compare(scene, text, quantity="force-spectrum", models="linear filter, 3D")
+        assert result.tolerance.relative == pytest.approx(relative) and result.quantity == "force-spectrum"
+    assert list(inspect.signature(validation.compare).parameters)[:3] == ["scene", "tolerance", "quantity"]
+
+
+def test_a_quantity_in_the_second_place_works_for_one_release():
+    scene, models = validation.load_scene("rolling_wheel"), "linear filter, 1D"
+    for places in (("force-spectrum",), ("force-spectrum", "1 dB"), ("force-spectrum", 0.2, 3), (None, 0.2)):
+        named = dict(zip(("quantity", "tolerance", "seed"), places, strict=False))
+        with pytest.warns(FutureWarning, match="compare takes a tolerance in second place now"):
+            earlier = validation.compare(scene, *places, models=models)
+        assert validation.to_json(earlier) == validation.to_json(validation.compare(scene, **named, models=models))
+    with pytest.warns(FutureWarning), pytest.raises(ValueError, match="quantity must be one of force-rms"):
+        validation.compare(scene, "loudness")
 
 
 @pytest.mark.parametrize("name", ["nowhere", 5])
@@ -133,6 +173,55 @@ def test_the_command_prints_the_summary(capsys):
     words = ["compare", "rolling_wheel", "--quantity", SPECTRUM["quantity"], "--tolerance", "30%", "--verbose"]
     assert main(words) == 0
     assert capsys.readouterr().out == f"{validation.summary(spectrum())}\n"
+
+
+@catches("a table whose rows have the half-width of another part of the error").at(
+    "validation.advice.compare.Comparison.error_parts_of",
+    lambda result, candidate: dict.fromkeys(("model", "grid", "sample"), 7.0),
+)
+def test_a_table_has_the_numbers_with_their_error_and_the_scene():
+    result = spectrum()
+    rows = result.table()
+    assert {type(cell) for row in rows for cell in row.values()} <= {float, int, str, bool, type(None)}
+    assert [row["model"] for row in rows if row["selected"]] == [result.model] * result.wavenumbers.size
+    assert {row["model"] for row in rows} == {candidate.name for candidate in result.models}
+    selected = {name: np.array([row[name] for row in rows if row["selected"]]) for name in rows[0]}
+    assert selected["value"] == pytest.approx(result.value)
+    assert selected["wavelength_mm"].tolist() == result.wavelength_mm.tolist()
+    parts = [selected[f"error_{name}"] for name in ("model", "grid", "sample")]
+    assert np.isclose(parts[0] + np.hypot(*parts[1:]), selected["error"]).all()
+    scene = result.scene
+    asked = {"scene": scene.name, "scene.load": scene.load, "scene.ground.rms": scene.ground.rms, "tolerance": 0.3}
+    assert all(row | asked == row and row["status"] for row in rows)
+    assert all(row["seconds"] > 0 for row in rows if row["solved"])
+    written = [row for row in csv.DictReader(validation.to_csv(result).splitlines()) if row["selected"] == "True"]
+    assert [float(row["error_model"]) for row in written] == pytest.approx(parts[0])
+    assert {float(row["scene.load"]) for row in written} == {scene.load}
+
+
+@pytest.mark.parametrize("through", [copy.copy, copy.deepcopy, lambda result: pickle.loads(pickle.dumps(result))])
+@catches("a model that is pickled without its grid", copy.deepcopy).at(
+    "validation.advice.scene_model.SceneModel.__getstate__",
+    lambda model: {**vars(model), "shared": {}, "resolution": Resolution()},
+)
+def test_a_comparison_is_copied_and_pickled_whole(through):
+    result = validation.compare(validation.load_scene("rough_punch"), models=["fit", "mdr"])
+    other = through(result)
+    assert validation.to_json(other) == validation.to_json(result)
+    assert validation.summary(other) == validation.summary(result)
+    assert [model.model.resolution for model in other.models] == [model.model.resolution for model in result.models]
+    assert pickle.loads(pickle.dumps(other)).model == result.model
+    assert not any(model.model.shared for model in other.models) or through is copy.copy
+
+
+def test_a_judgement_is_copied_and_pickled_whole():
+    @validation.stiffness_model("flat punch")
+    def flat(side, modulus):
+        return 1.1523 * modulus * side
+
+    judgement = validation.judge(flat)
+    for other in (copy.copy(judgement), copy.deepcopy(judgement), pickle.loads(pickle.dumps(judgement))):
+        assert (other.as_dict(), other.summary()) == (judgement.as_dict(), judgement.summary())
 
 
 def test_a_case_runs_from_its_settings():

@@ -104,6 +104,23 @@ def test_a_plain_array_belongs_to_the_caller(force):
     assert force.flags.owndata
 
 
+@catches("a spectrum at one wavenumber that is an array").at("mdr.spectrum.number_or_array", np.asarray)
+def test_one_wavenumber_has_a_number_and_several_an_array():
+    band = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=20.0, rms=1.0)
+    ends = {"edges": (band.q_min, band.q_max)}
+    spectra = [
+        *(band.c2d, band.c1d, band.line),
+        lambda q: mdr.geike(q, band.c2d),
+        lambda q: mdr.inverse_geike(q, band.c1d),
+        lambda q: mdr.line_trace(q, band.c2d, q_max=20.0),
+        lambda q: mdr.rolling_spectrum(q, band.c2d, **ends),
+    ]
+    for spectrum in spectra:
+        for one in (2, 2.0, np.float64(2.0), np.array(2.0)):
+            assert type(spectrum(one)) is float and spectrum(one) == spectrum([2.0])[0]
+        assert spectrum(np.array([[2.0], [3.0]])).shape == (2, 1)
+
+
 def test_a_spectrum_holds_numbers_of_its_own():
     rms = np.array(1.0)
     band = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=2.0, rms=rms)

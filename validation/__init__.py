@@ -13,17 +13,22 @@ MODULES = {
     "IndentationScene": "scenes.indentation",
     "Material": "scenes.material",
     "JudgedNumber": "judging.judgement",
+    "JudgedRange": "judging.judgement",
     "Judgement": "judging.judge",
+    "KnownContact": "benchmarks.discrete",
     "MeasuredHeights": "scenes.measured_heights",
     "RailScene": "railway.scenes.rail",
     "RollingScene": "scenes.rolling",
     "Roughness": "scenes.roughness",
+    "Tolerance": "advice.tolerance",
+    "Verdict": "analysis.evidence",
     "WheelScene": "scenes.dynamic_wheel",
     "compare": "advice.compare",
     "contact_filter": "judging.registry",
     "contact_law": "judging.registry",
     "contact_solver": "judging.registry",
     "force_spectrum": "judging.registry",
+    "interface_model": "judging.registry",
     "judge": "judging.judge",
     "load_scene": "scenes.load",
     "load_wheel_scene": "scenes.dynamic_wheel",
@@ -52,4 +57,5 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *MODULES])
+    """The names of the face, and none of what this module imports."""
+    return sorted([*(name for name in globals() if name.startswith("__")), *MODULES])

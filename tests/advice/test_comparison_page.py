@@ -34,7 +34,9 @@ def of_models(*models, **settings):
 @pytest.mark.slow
 def test_the_page_has_scene_answer_claims_and_costs():
     scene = validation.load_scene("rolling_wheel")
-    found = validation.compare(scene, "force-spectrum", "3 dB", models=["linear filter, 3D", "springs"])
+    found = validation.compare(
+        scene, quantity="force-spectrum", tolerance="3 dB", models=["linear filter, 3D", "springs"]
+    )
     files = files_of(found)
     text = text_of(files[PAGE])
     for said in ("Rolling wheel: force-spectrum within 3 dB", "contact radius a 1.982 mm", "✓ tolerance met"):

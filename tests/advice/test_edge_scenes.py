@@ -164,7 +164,7 @@ def test_a_wheel_whose_resonance_leaves_no_band_is_refused_in_a_sentence():
     slow = replace(slow, ground=replace(slow.ground, rms=1e-3 * slow.approach))
     turn = slow.body.eigenfrequency / slow.speed
     ground = replace(slow.ground, longest=2 * math.pi / (1.2 * turn), shortest=2 * math.pi / (2.2 * turn))
-    found = compare(replace(slow, ground=ground), "acceleration")
+    found = compare(replace(slow, ground=ground), quantity="acceleration")
     assert not found.met and np.isnan(found.value).all() and found.wavenumbers.size == 0
     assert all(model.status == "out of range" and "one-third octave" in model.reason for model in found.models)
 

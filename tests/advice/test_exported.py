@@ -36,7 +36,9 @@ def rows_of(comparison):
 
 
 def spectrum(**settings):
-    return validation.compare(validation.load_scene("rolling_wheel"), "force-spectrum", "3 dB", **settings)
+    return validation.compare(
+        validation.load_scene("rolling_wheel"), quantity="force-spectrum", tolerance="3 dB", **settings
+    )
 
 
 def test_the_contact_that_is_assumed_is_that_of_hertz():

@@ -352,9 +352,10 @@ def test_no_claim_depends_on_units(power, length):
 
 
 def test_scenes_are_asked_for_what_they_have():
-    assert quantities_of(punch()) == ("stiffness",)
+    of_punches = ("stiffness", "contact-area", "mean-gap")
+    assert quantities_of(punch()) == of_punches
     assert quantities_of(wheel()) == ("force-rms", "force-spectrum")
-    assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(all_quantities()) - {"stiffness", *RAIL_QUANTITIES}
+    assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(all_quantities()) - {*of_punches, *RAIL_QUANTITIES}
     with pytest.raises(ValueError, match=r"^quantity must be one of force-rms, force-spectrum for scene 'wheel'"):
         compare(wheel(), quantity="acceleration")
 
@@ -473,7 +474,10 @@ def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     levels = np.arange(1.0, centres.size + 1)
     found = compared(Finding(value=tuple(levels), parts=PARTS), scene=scene, quantity=quantity)
     # 20 lg 1.1202 = 0.99 dB
-    assert "± 12 % (0.99 dB) over all bands: model 10 %, grid 2 %, sample 0.3 %" in " ".join(summary(found).split())
+    assert (
+        "± 12 % (0.99 dB) over all bands (95 %), of which model 10 %, discretisation 2 %, sampling 0.3 %; "
+        in " ".join(summary(found).split())
+    )
     columns = bands_of(found, found.model)
     assert list(columns)[-2:] == [f"level [dB re 1 {unit}]", "± [dB]"]
     wave, frequency, nominal, turns, rms, decibels, half = (np.array(cells, dtype=float) for cells in columns.values())

@@ -17,6 +17,7 @@ AXES = ("value", "wavenumbers", "wavelength_mm", "frequency_hz", "nominal_hz", "
 
 def arrays_of(found):
     yield from (getattr(found, name) for name in AXES)
+    yield from found.error_parts_of(found.selection.best).values()
     for one in found.selection.solved:
         yield from (found.value_of(one), found.errors_of(one), found.a3_of(one), *found.error_parts_of(one).values())
         yield from (one.answer.value, *one.answer.band_errors.values())
@@ -37,15 +38,15 @@ def test_no_array_of_a_comparison_can_be_written(scene, quantity, through):
     assert np.array_equal(found.value, before)
 
 
-@catches("a value that can be written").at(
-    ("validation.advice.compare.kept", "validation.advice.scene_model.kept"), lambda array: array.copy()
+@catches("one number as an array").at(
+    "validation.advice.compare.Comparison._number_or_levels", lambda found, values: values
 )
-def test_one_number_cannot_be_written_either():
-    found = compared(Finding(value=(3.0,)))
-    for array in (found.value, compared().value):
-        assert not array.flags.writeable
-        with pytest.raises(ValueError, match="read-only"):
-            array[0] = 7.0
+def test_one_number_is_a_float():
+    found = compared(Finding(value=(3.0,), parts=(0.1, 0.02, 0.03)))
+    numbers = found.value, found.value_of(found.models[0]), found.errors_of(found.models[0]), compared().value
+    assert {type(number) for number in (*numbers, *found.error_parts_of(found.models[0]).values())} == {float}
+    assert found.value == 3.0 and found.error_parts_of(found.models[0])["grid"] == pytest.approx(0.06)
+    assert np.isnan(compared().value)
 
 
 def test_an_answer_has_a_copy_of_what_a_model_returned():
@@ -55,6 +56,9 @@ def test_an_answer_has_a_copy_of_what_a_model_returned():
     assert answer.value.tolist() == [1.0, 2.0] and answer.band_errors["model"].tolist() == [0.1, 0.2]
 
 
+@catches("levels that can be written").at(
+    ("validation.advice.compare.kept", "validation.advice.scene_model.kept"), lambda array: array.copy()
+)
 def test_levels_of_a_wheel_cannot_be_written():
     found = compared(Finding(value=(0.1,) * 5), scene=wheel(), quantity="force-spectrum")
     with pytest.raises(ValueError, match="read-only"):

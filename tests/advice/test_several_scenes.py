@@ -35,7 +35,7 @@ def test_a_sweep_is_one_table_with_a_row_a_value(tmp_path, capsys):
     alone = validation.compare(validation.load_scene("rolling_wheel"))
     objects = json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
     assert [found["scene"] for found in objects] == names
-    assert objects[0]["value"][0] < objects[1]["value"][0] == pytest.approx(alone.value[0])
+    assert objects[0]["value"][0] < objects[1]["value"][0] == pytest.approx(alone.value)
     rows = list(csv.DictReader((tmp_path / "out.csv").read_text(encoding="utf-8").splitlines()))
     assert [row["scene"] for row in rows] == names
     told = [(row["swept"], float(row["swept_value"]), row["swept_unit"]) for row in rows]
@@ -97,7 +97,7 @@ def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
     engine = Engine(store=tmp_path)
     solved, stored = (compare_scenes(problems, engine) for _ in range(2))
     for one, *found in zip(problems, solved, stored, strict=True):
-        alone = validation.compare(one.scene, *one.quantities, one.tolerance, models=one.models or None)
+        alone = validation.compare(one.scene, one.tolerance, quantity=one.quantities[0], models=one.models or None)
         for comparison in (replace(each, timed=False) for each in found):
             assert (summary(comparison), validation.to_json(comparison)) == (summary(alone), validation.to_json(alone))
 

@@ -20,6 +20,7 @@ from validation.analysis.number_text import (
     off_by,
     per_cent,
     place_value,
+    plus_minus,
     scaled,
     share,
     short,
@@ -32,6 +33,10 @@ from validation.analysis.number_text import (
     with_prefix,
     with_reference,
 )
+
+
+def test_a_value_without_a_finite_interval_says_so():
+    assert plus_minus(12.3, math.inf) == "12 ± unknown"
 
 
 @pytest.mark.parametrize(

@@ -44,12 +44,10 @@ def test_the_same_as_by_transforms(seed):
         assert few.pressure.sum() * body.cell_area == pytest.approx(few.force, rel=1e-12)
 
 
-@catches("a cell that has left, kept for the rounding of its pressure").at(
-    "bem3d.projected_cg._left_over", lambda pressure, change: np.maximum(pressure + change, 0.0)
-)
+@catches("a cell that has left, kept for the rounding of its pressure").at("bem3d.projected_cg.ROUNDING", 0.0)
 def test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure():
     """One asperity carries all; a second, pressed on the way there, once kept 1e-17 of it and counted as contact."""
-    body, gap = rough_punch(cells=24, seed=35)
+    body, gap = rough_punch(cells=24, seed=432)
     (contact,) = bem3d.indent_few_cells(body, gap, forces=[1e-6], tolerance=1e-4)
     assert len(contact.cells) == 1
 

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import bem3d
+from bem3d import contact as contact_module
 from bem3d import kernel
+from tests import oracles
 from tests.seeded import catches
 from validation.theory import closed_forms
 
@@ -88,3 +90,104 @@ def test_a_load_path_lies_between_those_of_the_smooth_bodies_at_the_extreme_heig
         assert contact.stiffness() >= chord * (1 - 1e-6)
         if shape == "punch":
             assert contact.stiffness() <= flat.stiffness() * (1 + 1e-6)
+
+
+# --- gap and area of a contact ---
+
+
+@catches("a gap that the displacement does not open", periodic=True).at(
+    "bem3d.Contact.displacement", property(lambda contact: np.zeros(contact.pressure.shape))
+)
+@catches("the mean gap of an interface over its overlap", periodic=True).at(
+    "bem3d.Contact.mean_gap", property(lambda contact: contact.approach - contact.problem.first_touch)
+)
+@pytest.mark.parametrize("periodic", [True, False])
+def test_the_gap_is_that_of_an_operator_without_transforms(periodic):
+    """gap + K p - d, K the dense matrix: zero under pressure, positive beside it, and its mean."""
+    n = 16
+    body = bem3d.HalfSpace(shape=(n, n), spacing=(0.1, 0.2), modulus=2.0, periodic=periodic)
+    height = np.random.default_rng(1).normal(size=(n, n))
+    contact = bem3d.solve(body, -height, force=0.3, tolerance=1e-9, indenter_ends_at_edge=True)
+    u = (oracles.dense_operator(body) @ contact.pressure.ravel()).reshape(n, n)
+    scale = contact.approach + height.max()
+    assert contact.displacement == pytest.approx(u, abs=1e-9 * scale)
+    assert contact.gap == pytest.approx(u - height - contact.approach, abs=1e-9 * scale)
+    assert contact.gap.min() > -1e-8 * scale and np.abs(contact.gap[contact.pressure > 0]).max() < 1e-6 * scale
+    assert contact.mean_gap == pytest.approx((u - height).mean() - contact.approach, abs=1e-9 * scale)
+    assert contact.gap is contact.gap and not contact.gap.flags.writeable
+
+
+def test_gap_and_area_without_contact_are_those_of_the_problem():
+    body = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0)
+    gap = np.arange(16.0).reshape(4, 4)
+    contact = bem3d.solve(body, gap, approach=-1.0)
+    assert contact.corrected_area == contact.area == 0.0
+    np.testing.assert_array_equal(contact.gap, gap + 1.0)
+    assert contact.mean_gap == 8.5
+
+
+def sides_by_a_loop(under, periodic):
+    """Pairs of neighbours of which one is under pressure."""
+    nx, ny = under.shape
+    pairs = [((i, j), (i + 1, j)) for i in range(nx) for j in range(ny) if i + 1 < nx or periodic]
+    pairs += [((i, j), (i, j + 1)) for i in range(nx) for j in range(ny) if j + 1 < ny or periodic]
+    return sum(under[a] != under[b[0] % nx, b[1] % ny] for a, b in pairs)
+
+
+@catches("half of a cell for each two sides", periodic=False).at("bem3d.contact.PERIMETER", 0.25)
+@catches("an area without its correction", periodic=True).at("bem3d.Contact.corrected_area", bem3d.Contact.area)
+@pytest.mark.parametrize("periodic", [True, False])
+def test_the_correction_counts_the_sides_of_cells_on_the_boundary(periodic):
+    """0.11811 of a cell for each; contacts that go over the end of a periodic grid, cells of 1 : 2."""
+    body = bem3d.HalfSpace(shape=(12, 10), spacing=(0.1, 0.2), modulus=2.0, periodic=periodic)
+    height = np.random.default_rng(2).normal(size=(12, 10))
+    contact = bem3d.solve(body, -height, force=1.0, indenter_ends_at_edge=True)
+    sides = sides_by_a_loop(contact.pressure > 0, periodic)
+    assert sides > 10
+    assert contact.area - contact.corrected_area == pytest.approx(0.11811 * sides * 0.02, rel=1e-4)
+
+
+def heights_of_common_waves(cells):
+    """The same 16 x 16 waves of a plateau and H = 0.7 on every grid, rms height 1e-3; cell centres of all grids differ
+    by a shift, which a periodic face does not have."""
+    x = (np.arange(cells) + 0.5) / cells
+    i, j = np.arange(-16, 17), np.arange(17)
+    q = np.hypot(i[:, np.newaxis], j)
+    phase = np.random.default_rng(4).uniform(0, 2 * np.pi, q.shape)
+    amplitude = np.where((q > 0) & (q <= 16), np.maximum(q, 4.0) ** -1.7, 0.0) * np.exp(1j * phase)
+    along_x, along_y = (np.exp(2j * np.pi * np.outer(x, waves)) for waves in (i, j))
+    height = (along_x @ amplitude @ along_y.T).real
+    return 1e-3 * height / height.std()
+
+
+@catches("twice the correction", waves=4).at("bem3d.contact.PERIMETER", 2 * contact_module.PERIMETER)
+@catches("no correction", waves=4).at("bem3d.contact.PERIMETER", 0.0)
+@pytest.mark.parametrize("waves", [4, 8])
+def test_the_corrected_area_of_a_rough_face_is_that_of_cells_eight_times_as_fine(waves):
+    """What is left is less than a quarter of the correction, on 4 and 8 cells to the shortest of 16 waves a side; the
+    fine grid's own area is extrapolated by half of its correction, which is an eighth of the coarse one's at most."""
+    areas = {}
+    for cells in (16 * waves, 512):
+        height = heights_of_common_waves(cells)
+        body = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0, periodic=True)
+        contact = list(bem3d.indent(body, -height, forces=(0.003, 0.012), tolerance=1e-4))
+        areas[cells] = np.array([(c.area, c.corrected_area) for c in contact]).T
+    (counted, corrected), (_, fine) = areas[16 * waves], areas[512]
+    left = corrected - fine
+    assert (np.abs(left) < 0.25 * (counted - corrected)).all(), left / (counted - corrected)
+
+
+@catches("half of the correction", n=16).at("bem3d.contact.PERIMETER", 0.1 * contact_module.PERIMETER)
+@pytest.mark.parametrize("n", [8, 16])
+def test_the_corrected_area_of_a_sphere_is_within_half_of_the_correction(n):
+    """Mean of nine places of the sphere between the cells, beside pi R d."""
+    step, counted, corrected = 1e-3 / n, [], []
+    for x_0, y_0 in np.ndindex(3, 3):
+        x, y = ((np.arange(3 * n) - 1.5 * n + (k + 0.5) / 3) * step for k in (x_0, y_0))
+        gap = (x[:, np.newaxis] ** 2 + y**2) / 0.2
+        body = bem3d.HalfSpace(shape=(3 * n, 3 * n), spacing=step, modulus=1e11)
+        contact = bem3d.solve(body, gap, approach=1e-5)
+        counted.append(contact.area)
+        corrected.append(contact.corrected_area)
+    counted, corrected = np.mean(counted), np.mean(corrected)
+    assert abs(corrected - math.pi * 1e-6) < 0.5 * (counted - corrected)

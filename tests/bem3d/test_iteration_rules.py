@@ -21,7 +21,7 @@ def solve_on(frame):
 
 def test_an_iteration_without_a_way_down_ends_with_its_last_pressure(monkeypatch):
     def three(*given):
-        return (projected_cg.State(np.full(16, float(i)), np.ones(16), 1.0, 0.5) for i in range(3))
+        return (projected_cg.State(np.full(16, float(i)), 0.5) for i in range(3))
 
     monkeypatch.setattr(rolling_solve, "projected_cg", three)
     track = bem3d.Track(height=np.zeros((40, 40)), spacing=1 / 8, radius=1.0, modulus=1.0)
@@ -34,7 +34,7 @@ def test_patience_ends_where_the_residual_has_not_halved(monkeypatch):
     """At the next after 100 iterations of a press, and after 30 of a wheel."""
 
     def forever(cells, pressure, separation, load, length=0.4):
-        return itertools.repeat(projected_cg.State(pressure, separation, 1.0, 0.5))
+        return itertools.repeat(projected_cg.State(pressure, 0.5))
 
     for module in (window_solve, rolling_solve):
         monkeypatch.setattr(module, "projected_cg", forever)

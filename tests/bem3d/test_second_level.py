@@ -91,6 +91,37 @@ def test_a_sparse_contact_is_nearly_inverted(periodic):
     assert values[0] > 0 and values[-1] < 10 * values[0]
 
 
+@catches("a cut whose force is felt from afar", periodic=False).at(
+    "bem3d.far_field.FarField.cut", lambda self, pressure: np.maximum(pressure, 0.0, out=pressure)
+)
+@pytest.mark.slow
+@pytest.mark.parametrize("periodic", [True, False])
+def test_applications_do_not_grow(periodic):
+    """From a grid of one level to one of two, with waves down to four cells on both."""
+    counts = []
+    for n in (512, 1024):
+        body, gap = self_affine(n, periodic=periodic)
+        counts.append(bem3d.solve(body, gap, force=0.005, tolerance=1e-4).operator_applications)
+    assert counts[1] <= counts[0]
+
+
+@with_levels
+def test_a_cut_keeps_the_force_on_a_block_that_presses():
+    """And leaves none on a block that would pull; the cells keep their ratios."""
+    body = bem3d.HalfSpace(shape=(20, 16), spacing=1.0, modulus=2.0)
+    rng = np.random.default_rng(1)
+    marked = rng.random(body.shape) < 0.4
+    cells, aim = bem3d.window.Candidates(body, marked), rng.normal(0.5, 1.0, np.count_nonzero(marked))
+    before, pressure = cells.spread(aim), aim.copy()
+    cells.cut(pressure)
+    after = cells.spread(pressure)
+    forces, kept = (field.reshape(5, 4, 4, 4).sum(axis=(1, 3)) for field in (before, after))
+    assert (forces < 0).any() and ((pressure > 0) <= (aim > 0)).all() and (pressure >= 0).all()
+    np.testing.assert_allclose(kept, np.maximum(forces, 0.0), rtol=1e-12, atol=1e-12)
+    pressed = (before[:4, :4] > 0) & (after[:4, :4] > 0)
+    np.testing.assert_allclose(np.ptp(after[:4, :4][pressed] / before[:4, :4][pressed]), 0.0, atol=1e-12)
+
+
 HOSTILE = 500
 
 

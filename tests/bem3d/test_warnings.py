@@ -132,7 +132,7 @@ def asked(gap, *, modulus=1e11, metre=1.0, **load):
 
 @catches(
     "heights in nm on a grid in m that nobody asks about", gap=-1e9 * SURFACE, settings={"force": 1e-3}, word="above"
-).at("bem3d.contact.typical_slope", lambda *_: 0.0)
+).at("bem3d.problem.typical_slope", lambda *_: 0.0)
 @catches(
     "heights in m on a grid in um that nobody asks about",
     gap=-SURFACE,
@@ -168,7 +168,7 @@ def mean_slope(gap, steps):
 
 
 @catches("the edge of a punch asked about as a slope", gap=PUNCH, load={"force": 1e-2}).at(
-    "bem3d.contact.typical_slope", mean_slope
+    "bem3d.problem.typical_slope", mean_slope
 )
 @pytest.mark.parametrize(
     ("gap", "load"),

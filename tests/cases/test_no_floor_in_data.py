@@ -9,9 +9,6 @@ import pytest
 
 from tests.advice.test_model_selection import outcome as selected
 from tests.cases.test_fractal_punch import synthetic
-from tests.cases.test_interface import CASE as INTERFACE
-from tests.cases.test_interface import outcome as pressed
-from tests.cases.test_interface import theory
 from tests.cases.test_limits import STEEP
 from tests.seeded import catches
 from validation.advice.cases import model_selection as ladder
@@ -22,11 +19,10 @@ from validation.analysis.series import Estimates, Series, tables_of
 from validation.analysis.statistics import Interval
 from validation.cases.limits import limits
 from validation.cases.limits.sweeps import Sweep
-from validation.cases.punch import fractal_punch, interface_study
+from validation.cases.punch import fractal_punch
 from validation.cases.punch.ensembles import DEVIATION, OVER
 from validation.cases.punch.fractal_punch import SCATTER
 from validation.cases.punch.fractal_punch_study import PRINTED
-from validation.cases.punch.interface import GAP, GAP_OVER_H, PUNCH
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.stability import wheel_stability
 from validation.cases.wheel.half_space import LOOSE, TIGHT, WheelLevels
@@ -83,18 +79,6 @@ def test_below_one_per_cent_two_deviations_are_alike_in_verdicts_which_say_so(ap
 
 
 # --- other cases ---
-
-
-def test_springs_that_all_touch_leave_no_gap_and_no_ratio_of_gaps():
-    """Not a gap of 1e-12, and not an empty cell."""
-    found = {(ground, n): pressed(theory(ground), 6) for ground in INTERFACE.grounds for n in (1, 2)}
-    found |= {(PUNCH, n): pressed(theory(INTERFACE.pressed), 6) for n in (1, 2)}
-    springs = pressed(theory(INTERFACE.pressed), 8)
-    springs["gap"] = springs["gap"] * np.array([1.0] * 5 + [1e-17] * 2)
-    evidence = interface_study.CASE.evidence(Outcomes(INTERFACE, found | {"springs": springs}))
-    shown = evidence.table(GAP_OVER_H).where(model="springs")["value"]
-    assert shown.tolist() == pytest.approx([*springs["gap"].mean(axis=0)[:5] / INTERFACE.height, 0.0, 0.0])
-    assert len(numbers_with(evidence.numbers, GAP)) == 5
 
 
 shown = limits.shown

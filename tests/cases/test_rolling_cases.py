@@ -111,7 +111,7 @@ def test_tracks_have_the_variance_of_linear_theory():
 )
 def test_the_curve_on_a_track_is_that_of_its_waves_through_the_filter():
     """(14.12) on the waves that a drawn track has, beside (14.11) over the track itself."""
-    tracks = replace(SMALL, tracks=2).tracks_of(1e-3)
+    tracks = replace(SMALL, tracks=2).tracks_of(1e-3, rolling.SPRINGS)
     curve = partial(force_spectrum_1d, contact_radius=1.0, modulus=1.0)
     book = 1e-6 * rolling.levels_on_track(SMALL, curve)
     for level in roll_tracks(tracks)["linear level"]:

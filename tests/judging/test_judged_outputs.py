@@ -11,6 +11,7 @@ import pytest
 import validation
 from tests.judging.judged_points import NO_RESULT, NOT_SERVED, OUTSIDE, WITHIN
 from tests.judging.test_judge_command import RIGHT, broken, pointed
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of, left_out
@@ -312,6 +313,34 @@ def test_keys_of_conditions_are_ascii_and_the_same_in_csv_and_json():
     assert list(row["conditions"]) == keys and row["where"] == where
     assert list(row["conditions"].values()) == list(where.values())
     assert found.files()["verdicts.csv"].decode().splitlines()[0].split(",")[:6] == ["model", "quantity", *keys]
+
+
+@catches("a number whose error is that of another one").at(
+    "validation.judging.judge.row_of_number", lambda number: {"quantity": number.quantity, "error": 7.0}
+)
+def test_json_and_tables_have_the_names_of_python():
+    where = {"H": 0.7, "wavelength [mm]": 16.0}
+    found = judgement_of("mine", [2.0])
+    found = replace(found, numbers=(replace(found.numbers[0], where=where),))
+    (number,), (row,), (record,) = found.numbers, found.table(), found.as_dict()["numbers"]
+    assert {name: getattr(number, name) for name in record} == record
+    assert number.conditions == {"hurst": 0.7, "wavelength_mm": 16.0} and number.outcome == "within tolerance"
+    assert row["hurst"] == 0.7 and {type(cell) for cell in row.values()} <= {float, str}
+    assert {name: row[name] for name in record if name in row} == {name: record[name] for name in record if name in row}
+    assert {*row} >= {"model", "kind", "value", "reference", "difference", "error", "error_grid", "unit", "outcome"}
+    (part,), (record,) = found.ranges, found.as_dict()["ranges"]
+    assert {record[name] == getattr(part, name) for name in ("quantity", "start", "stop", "conditions", "outcome")} == {
+        True
+    }
+
+
+def test_one_model_of_a_file_is_judged_by_its_name(quick, file):
+    path = laws(file, ["first", "second"])
+    assert judged.judge(path, only="second").model == "second"
+    with pytest.raises(ValueError, match="model must be one, got 'first', 'second': choose by only='first'"):
+        judged.judge(path)
+    with pytest.raises(ValueError, match="only must be one of first, second, got third"):
+        judged.judge(path, only="third")
 
 
 def test_names_of_the_last_release_work_and_name_the_new_ones():

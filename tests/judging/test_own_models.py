@@ -103,7 +103,7 @@ def test_a_calibrated_function_is_chosen_like_any_other():
         found = validation.compare(ROUGH, models=[series, "fit"])
     chosen = found.models["interface in series"]
     assert found.model == "interface in series" and found.met and 0.001 < chosen.error < 0.1
-    assert found.value[0] == series(ROUGH.load, ROUGH.size, ROUGH.modulus, ROUGH.ground.spectrum)
+    assert found.value == series(ROUGH.load, ROUGH.size, ROUGH.modulus, ROUGH.ground.spectrum)
     assert found.models["springs"].status == "not asked"
 
 

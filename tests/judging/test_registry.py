@@ -1,5 +1,13 @@
 """What a function may ask for: every other argument is refused in a sentence that lists those that it can have."""
 
+import copy
+import functools
+import inspect
+import multiprocessing
+import pickle
+import pydoc
+import subprocess
+import sys
 from functools import partial
 from importlib.metadata import EntryPoint
 from pathlib import Path
@@ -8,6 +16,7 @@ import numpy as np
 import pytest
 
 import validation
+from tests.seeded import catches, module_with
 from validation.judging import source_files as installed
 from validation.judging.own_models import named_in
 from validation.judging.registry import KINDS, OfferedError
@@ -20,6 +29,87 @@ def test_a_decorated_function_is_called_as_before():
         return load / side
 
     assert (mine(6.0, side=2.0), mine.name, mine.kind, mine.asks) == (3.0, "mine", "stiffness_model", ("load", "side"))
+
+
+@validation.stiffness_model("placed")
+def placed(load: float, side: float = 2.0) -> float:
+    """The load over the side."""
+    return load / side
+
+
+@catches("an offered function that has lost its signature").at(
+    "validation.judging.registry.functools", module_with(functools, update_wrapper=lambda wrapper, wrapped: wrapper)
+)
+def test_a_decorated_function_keeps_its_signature_and_its_documentation():
+    again = validation.stiffness_model("placed")(placed.function)
+    assert str(inspect.signature(again)) == "(load: float, side: float = 2.0) -> float"
+    assert (again.__name__, again.__doc__) == ("placed", "The load over the side.")
+    shown = pydoc.render_doc(again, renderer=pydoc.plaintext)
+    assert "placed(load, side)" in shown and "The load over the side." in shown
+    assert len(repr(placed)) < 100 and "@stiffness_model('placed')" in repr(placed)
+    assert validation.stiffness_model("lambda")(lambda load: load).__doc__.startswith("@stiffness_model('lambda')")
+    assert validation.stiffness_model("part")(partial(lambda load, side: load, side=1.0))(load=2.0) == 2.0
+
+
+def test_a_decorated_function_is_copied_and_pickled_as_a_function_is():
+    for same in (copy.copy(placed), copy.deepcopy([placed])[0], pickle.loads(pickle.dumps(placed))):
+        assert same is placed
+    assert b"load / side" not in pickle.dumps(placed)
+
+
+@catches("a model of a notebook without its code").at("validation.judging.registry._by_value", lambda function: None)
+def test_a_function_without_a_place_is_pickled_with_its_code():
+    pytest.importorskip("cloudpickle")
+    factor = 3.0
+
+    @validation.contact_solver("local", periodic=True)
+    def local(gap, force):
+        return factor * gap
+
+    try:
+        other = pickle.loads(pickle.dumps(local))
+    except pickle.PicklingError as error:
+        raise AssertionError from error
+    assert other is not local and other(2.0, None) == 6.0
+    assert (other.name, other.kind, other.asks, other.options) == (local.name, local.kind, local.asks, local.options)
+
+
+def test_without_cloudpickle_a_function_without_a_place_is_refused(monkeypatch):
+    monkeypatch.setitem(sys.modules, "cloudpickle", None)
+    with pytest.raises(pickle.PicklingError, match=r"'local' must stand at the top of a module .* install cloudpickle"):
+        pickle.dumps(validation.stiffness_model("local")(lambda load: load))
+
+
+SCRIPT = """
+import multiprocessing, sys
+from concurrent.futures import ProcessPoolExecutor
+import validation
+
+@validation.stiffness_model("in series")
+def series(load, side, modulus):
+    return 1 / (1e-9 / load + 1 / (1.1523 * modulus * side))
+
+def compared(name):
+    return validation.compare(validation.load_scene(name), models=[series, "fit"])
+
+if __name__ == "__main__":
+    for start in sys.argv[1:]:
+        with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context(start)) as pool:
+            result = pool.submit(compared, "rough_punch").result()
+            judgement = pool.submit(validation.judge, series).result()
+        assert validation.to_json(result) == validation.to_json(compared("rough_punch"))
+        assert judgement.as_dict() | {"seconds": 0} == validation.judge(series).as_dict() | {"seconds": 0}
+        print(start, result.models["in series"].name, judgement.model)
+"""
+
+
+@pytest.mark.slow
+def test_results_and_models_of_a_script_go_through_pools(tmp_path):
+    starts = [start for start in ("fork", "spawn", "forkserver") if start in multiprocessing.get_all_start_methods()]
+    (tmp_path / "script.py").write_text(SCRIPT, encoding="utf-8")
+    words = [sys.executable, "script.py", *starts]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, encoding="utf-8")
+    assert done.stdout.splitlines() == [f"{start} in series in series" for start in starts], done.stderr
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -51,18 +51,20 @@ def without_long_waves(first, across="ridges", p=None):
 def test_longer_waves_have_the_limit_of_the_filter(first):
     """Over ridges (sin q a / q a)^2, to the tenth of a decibel that is written and what a band is off its centre."""
     scene = without_long_waves(first)
-    found = filter_table(compare(scene, "contact-filter", "3 dB"))["a3_dB"]
+    found = filter_table(compare(scene, quantity="contact-filter", tolerance="3 dB"))["a3_dB"]
     centre = 2 * scene.contact.along / RAIL.levels.bands.wavelengths[:first]
     assert found[:first] == pytest.approx(20 * np.log10(np.sinc(centre)), abs=0.055)
     assert np.isfinite(found).all()
     short = replace(scene, roughness=scene.roughness.within(None, 0.01))
-    assert np.isnan(filter_table(compare(short, "contact-filter", "3 dB"))["a3_dB"][24:]).all()
+    assert np.isnan(filter_table(compare(short, quantity="contact-filter", tolerance="3 dB"))["a3_dB"][24:]).all()
 
 
 @pytest.mark.parametrize("across", ["isotropic", 1.0, None])
 def test_longer_waves_are_those_of_a_scene_that_has_them(across):
     whole, cut = (without_long_waves(first, across, 2.4) for first in (0, 14))
-    tables = [filter_table(compare(scene, "contact-filter", "3 dB"))["a3_dB"] for scene in (whole, cut)]
+    tables = [
+        filter_table(compare(scene, quantity="contact-filter", tolerance="3 dB"))["a3_dB"] for scene in (whole, cut)
+    ]
     np.testing.assert_allclose(tables[1], tables[0], atol=0.101)
     assert (tables[1][:14] < 0).any()
 
@@ -72,7 +74,9 @@ def test_longer_waves_are_those_of_a_scene_that_has_them(across):
 )
 def test_springs_on_geikes_spectrum_are_off_for_long_waves_too():
     """By sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2) of C_line ~ q^-p: 2.0 dB for p = 2."""
-    one = compare(without_long_waves(12, "isotropic", 2.0), "contact-filter", "3 dB", models=[SPRINGS_GEIKE])
+    one = compare(
+        without_long_waves(12, "isotropic", 2.0), quantity="contact-filter", tolerance="3 dB", models=[SPRINGS_GEIKE]
+    )
     assert filter_table(one)["a3_dB"][:7] == pytest.approx(10 * np.log10(np.pi / 2), abs=0.06)
 
 

@@ -222,7 +222,7 @@ def test_a_scene_of_lines_needs_no_key_and_says_what_was_measured():
 
 def test_compare_has_the_measured_filter_and_its_uncertainty():
     scene = scene_of_lines("isotropic", 2.0, 1)
-    found = validation.compare(scene, "contact-filter", "3 dB", models=["linear, ellipse"])
+    found = validation.compare(scene, quantity="contact-filter", tolerance="3 dB", models=["linear, ellipse"])
     assert "the lateral structure by the lines leaves ±" in found.models[0].reason
     quantity = RailQuantity(scene, "contact-filter")
     np.testing.assert_allclose(found.value, quantity.linear.mean(axis=0))

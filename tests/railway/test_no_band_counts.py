@@ -12,6 +12,8 @@ from validation import compare, load_scene, summary, to_json
 from validation.advice.advice import what_would_help
 from validation.advice.cases.model_selection import EdgeTrial, true_error
 from validation.advice.scene_model import SceneModel
+from validation.analysis.spectra import assessed_bands
+from validation.railway.cases import filters
 from validation.railway.problems.rail_quantity import COUNTED
 from validation.railway.scenes.rail import RailScene
 from validation.simulation.method import Resolution
@@ -46,7 +48,9 @@ def asked(model):
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
 def test_no_model_is_enough_where_no_band_counts(scene, span, across):
     """Also where a wrong filter has one: the linear bed of springs at 12.5 mm."""
-    found = compare(replace(scene, lateral_structure=across), "contact-filter", "1 dB", callback=asked)
+    found = compare(
+        replace(scene, lateral_structure=across), quantity="contact-filter", tolerance="1 dB", callback=asked
+    )
     assert not found.met and found.model == "" and math.isinf(found.error)
     assert all(one.status == "out of range" and math.isinf(one.predicted_error) for one in found.models)
     text = " ".join(summary(found).split())
@@ -57,7 +61,7 @@ def test_no_model_is_enough_where_no_band_counts(scene, span, across):
 
 
 @catches("enough where no band counts").at(
-    "validation.railway.problems.rail_models.worst", lambda quantity, a3, error: 0.0
+    "validation.railway.problems.rail_quantity.RailQuantity.largest_error", lambda quantity, a3, error: 0.0
 )
 def test_a_solve_leaves_its_bands_and_no_error():
     """As with --all: what was found is told, and no error of it is known."""
@@ -69,9 +73,9 @@ def test_a_solve_leaves_its_bands_and_no_error():
 
 
 def test_the_longest_band_that_counts_is_enough_for_an_answer():
-    found = compare(of_bands(slice(21, 29)), "contact-filter", "3 dB")
+    found = compare(of_bands(slice(21, 29)), quantity="contact-filter", tolerance="3 dB")
     assert found.met and (found.value > COUNTED).sum() == 1
-    assert not compare(SHORT, "equivalent-roughness", "1 dB").met
+    assert not compare(SHORT, quantity="equivalent-roughness", tolerance="1 dB").met
 
 
 def test_a_trial_without_a_band_that_counts_has_no_true_error():
@@ -105,3 +109,18 @@ def test_a_solve_that_may_help_is_made(scene, tolerance):
 
     with pytest.raises(AskedError, match="boundary elements"):
         compare(scene, quantity="contact-filter", tolerance=tolerance, callback=stop)
+
+
+@catches("a band behind the first zero that counts").at(
+    "validation.advice.cases.model_selection.assessed_bands", lambda level, above: level > above
+)
+def test_a_second_harmonic_behind_the_first_zero_is_no_failure_of_a_filter():
+    """One rule everywhere: bands before the first below -15 dB. A corrugation of 16 mm has its half wavelength there,
+    which no linear filter has."""
+    trial = EdgeTrial(kind="rail", number=0, tolerances=(0.1,), seed=3)
+    a3 = np.array([0.0, -5.0, -16.0, -8.0])
+    truth, off = 10 ** (a3 / 20), np.array([1.0, 1.1, 1.0, 0.2])
+    assert true_error(trial, truth * off, truth) == pytest.approx(0.1)
+    for mask in (assessed_bands(a3, COUNTED), filters.counted(a3)):
+        assert mask.tolist() == [True, True, False, False]
+    assert assessed_bands(np.array([math.nan, -1.0, -20.0, math.nan]), COUNTED).tolist() == [False, True, False, False]

@@ -79,7 +79,7 @@ def test_models_of_two_radii_are_told_and_boundary_elements_take_the_profile(mon
 
     monkeypatch.setattr(rail_models, "roll_rail", louder_than_linear)
     scene = replace(profiled(worn(Y)), name="worn rail")
-    found = compare(scene, "contact-filter", "3 dB", models=[BEM, LINEAR])
+    found = compare(scene, quantity="contact-filter", tolerance="3 dB", models=[BEM, LINEAR])
     assert taken and set(taken) == {scene.profile}
     by_name = {one.name: one for one in found.models}
     assert found.model == BEM and by_name[BEM].estimate.in_range and not by_name[BEM].answer.failed

@@ -1,17 +1,23 @@
 """Scene files of a rail: units of the field, levels, lines and heights; everything that is refused, by its key."""
 
+import math
+from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from tests.scenes import test_scene_files
+from tests.seeded import catches
+from validation.railway.scenes import rail_file
 from validation.railway.scenes.level_files import curve
 from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.description import describe
 from validation.scenes.load import load_scene, load_scene_with_track
 from validation.scenes.measured_heights import MeasuredHeights
+from validation.scenes.rail_impedance import FreeBeam, RailDashpot
 
 TEXT = """
 name = "regional train"
@@ -275,3 +281,74 @@ def test_heights_must_hold_the_contact(tmp_path, shape, spacing, said):
 def test_a_rail_is_no_dynamic_wheel():
     with pytest.raises(ValueError, match="must be those of a dynamic wheel, got a wheel on a rail"):
         load_scene_with_track("rail")
+
+
+IMPEDANCES = {
+    'impedance = "rigid"': None,
+    "impedance = 1.5e5": RailDashpot(dashpot=1.5e5),
+    "impedance = { dashpot = 1.5e5, mass = 30 }": RailDashpot(dashpot=1.5e5, mass=30),
+    'impedance = "free beam"\nbending_stiffness = 6.38e6\nmass_per_length = 60.2': FreeBeam(
+        bending_stiffness=6.38e6, mass_per_length=60.2
+    ),
+}
+
+
+def moving(tmp_path, rail):
+    text = (Path(rail_file.__file__).with_name("rail.toml")).read_text(encoding="utf-8")
+    text = text.replace('# mass = "500 kg"', 'mass = "500 kg"').replace("[rail]\n", f"[rail]\n{rail}\n")
+    path = tmp_path / "moving.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(("rail", "impedance"), IMPEDANCES.items())
+def test_a_rail_has_the_impedance_of_its_file(tmp_path, rail, impedance):
+    assert load_scene(moving(tmp_path, rail)).impedance == impedance
+
+
+@pytest.mark.parametrize(
+    ("rail", "named"),
+    [
+        ('impedance = "soft"', 'rail.impedance must be "rigid", "free beam", a dashpot in N s/m or'),
+        ("impedance = { mass = 30 }", "rail.impedance must be"),
+        ("impedance = { dashpot = true }", "rail.impedance must be"),
+        ("impedance = -1.0", "rail.impedance.dashpot"),
+        ('impedance = "free beam"\nmass_per_length = 60', "rail.bending_stiffness must be given with"),
+        ("mass_per_length = 60", 'rail.mass_per_length belongs to rail.impedance = "free beam"'),
+    ],
+)
+def test_impedances_of_files_that_are_refused(tmp_path, rail, named):
+    with pytest.raises(ValueError, match=named):
+        load_scene(moving(tmp_path, rail))
+
+
+def test_an_impedance_without_a_mass_is_refused():
+    with pytest.raises(ValueError, match=r"rail\.impedance needs a mass"):
+        replace(load_scene("rail"), impedance=RailDashpot(dashpot=1.5e5))
+
+
+@catches("the rail forgotten in the force of linear theory").at(
+    "validation.scenes.rail_impedance.FreeBeam.impedance", lambda beam, omega: 1e30 + 0j * np.asarray(omega)
+)
+def test_the_force_in_motion_is_that_of_receptances_in_series():
+    """Band by band by a plain sum of narrow waves: r k / abs(1 + k (R_wheel + R_rail)), 2.3 % of the load on a beam."""
+    scene = replace(load_scene("rail"), mass=500.0, impedance=list(IMPEDANCES.values())[3])
+    total, k = 0.0, scene.contact.stiffness
+    edges = scene.levels.bands.edges
+    for level, low, high in zip(scene.levels.levels, edges, edges[1:], strict=False):
+        for n in range(50):
+            q = low * (high / low) ** ((n + 0.5) / 50)
+            w, s = q * scene.speed, q * scene.contact.along
+            z = 2 * 60.2 * (6.38e6 * w**2 / 60.2) ** 0.25 * (1 + 1j)
+            moves = -1 / (500 * w**2) + 1 / (1j * w * z)
+            total += 1e-12 * 10 ** (level / 10) / 50 * abs(k * math.sin(s) / s / (1 + k * moves)) ** 2
+    assert scene.force_in_motion == pytest.approx(math.sqrt(total) / scene.load, rel=0.01)
+    assert 0.01 < scene.force_in_motion < 0.1
+    described = dict(scene.describe())
+    assert "free beam" in described["impedance of the rail"] and "contact resonance" in described["wheel in motion"]
+    rigid = replace(scene, impedance=None)
+    assert math.isinf(rigid.force_in_motion) and any("leaves the rail" in note for note in rigid.diagnose())
+    damped = replace(rigid, damping=0.02)
+    assert damped.force_in_motion > 3 * scene.force_in_motion
+    still = load_scene("rail")
+    assert math.isnan(still.force_in_motion) and "wheel in motion" not in dict(still.describe())

@@ -6,17 +6,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import mdr
 from tests.seeded import Times, catches
 from validation import compare, load_scene
 from validation.advice.models_of_scene import all_quantities
 from validation.advice.scene_model import SceneModel
 from validation.railway.problems import equivalent_displacement, rail_models
-from validation.railway.problems.equivalent_displacement import ONE_SIDED, RolledRail, linear_displacement, roll_rail
+from validation.railway.problems.equivalent_displacement import (
+    ONE_SIDED,
+    Corrugation,
+    RolledRail,
+    linear_displacement,
+    roll_corrugation,
+    roll_rail,
+)
 from validation.railway.problems.rail_models import COARSE, FINE, RailModel
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.railway.problems.rail_strip import strip_of
 from validation.railway.scenes.level_files import RoughnessLevels, curve
 from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.theory.contact_filters import corrugation_harmonic, corrugation_harmonic_of_springs
 from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import (
@@ -191,7 +200,7 @@ def test_at_fixed_aspect_the_filter_over_wavelength_and_contact_does_not_depend_
     "validation.railway.problems.rail_quantity.RailQuantity.half_width", property(lambda quantity: 0 * quantity.wave)
 )
 def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground():
-    both = compare(replace(RAIL, lateral_structure=None), "contact-filter", "3 dB")
+    both = compare(replace(RAIL, lateral_structure=None), quantity="contact-filter", tolerance="3 dB")
     ends = [closed(RAIL, across)[1][LINEAR] for across in ("ridges", "isotropic")]
     quantity = RailQuantity(replace(RAIL, lateral_structure=None), "contact-filter")
     np.testing.assert_allclose(quantity.half_width, np.abs(ends[0] - ends[1]) / 2)
@@ -283,3 +292,27 @@ def test_the_cost_of_a_closed_filter_goes_with_its_evaluations():
     evaluations = RailQuantity(target.scene, "contact-filter").evaluations
     assert 1e6 < evaluations < 4e6
     assert model.cost(target, model.resolutions(target)[0]).seconds >= rail_models.EVALUATION * evaluations
+
+
+@catches("the edge at two points in place of a circle", phase=2.4).at(
+    f"{__name__}.corrugation_harmonic", corrugation_harmonic_of_springs
+)
+@pytest.mark.parametrize("phase", [0.8, 2.4])
+def test_the_half_wavelength_of_a_corrugation_is_that_of_boundary_elements(phase):
+    """At A/d = 0.1 on a circle, beside a closed second order without a parameter; the fourth order is a per cent."""
+    rolled = roll_corrugation(Corrugation(phase=phase, height=0.1, cells=12))
+    assert rolled["failed"] == 0
+    assert rolled["second"] == pytest.approx(float(corrugation_harmonic(phase)), abs=0.012)
+    assert rolled["first"] == pytest.approx(math.sin(phase) / phase, abs=0.01)
+
+
+def test_the_half_wavelength_of_a_corrugation_on_springs_is_that_of_rolled_springs():
+    """On fine springs at A/d = 0.02; and long waves, which lift the wheel as a whole, make none."""
+    phase, a = 1.2, 1.0
+    points, waves_along = 4000, 1
+    height = 0.02 * np.cos(2 * np.pi * np.arange(points) / points)
+    track = mdr.roll(height, spacing=2 * np.pi * a / phase / points, radius=1.0, modulus=1.0, force=4 / 3)
+    second = 2 * np.fft.rfft(track.approach.mean() - track.approach, norm="forward").real[2 * waves_along] / 0.02**2
+    assert second == pytest.approx(float(corrugation_harmonic_of_springs(phase)), abs=0.003)
+    for harmonic in (corrugation_harmonic, corrugation_harmonic_of_springs):
+        assert abs(float(harmonic(1e-3))) < 1e-5

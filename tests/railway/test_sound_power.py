@@ -141,7 +141,7 @@ def test_bands_beyond_the_roughness_have_no_sound_power():
     scene = replace(RAIL, speed=20 / 3.6)
     level = RailPower(scene, np.zeros(35)).level
     assert np.flatnonzero(np.isnan(level)).tolist() == [22, 23]
-    found = validation.compare(scene, "sound-power", "1 dB", models=["linear, ellipse"])
+    found = validation.compare(scene, quantity="sound-power", tolerance="1 dB", models=["linear, ellipse"])
     assert found.value.size == 24 and "but for 8000, 10000 Hz without roughness" in found.power.sentences[1]
     one = in_frequency([1.0], [0.02], 20.0)
     assert one[NOMINAL.index(1000)] == pytest.approx(1.0) and np.isnan(one).sum() == 23
@@ -177,27 +177,34 @@ def test_short_waves_of_unknown_error_pass_between_nothing_and_the_last_known_on
 
 
 def test_the_tolerance_is_that_of_the_sum():
-    found = validation.compare(RAIL, "sound-power", "0.6 dB")
+    found = validation.compare(RAIL, quantity="sound-power", tolerance="0.6 dB")
     assert found.met and found.model == "linear, ellipse" and found.unit == "dB re 1 pW"
     (solved,) = found.selection.solved
-    power = RailPower(RAIL, validation.compare(RAIL, "contact-filter", "1 dB").value)
+    power = RailPower(RAIL, validation.compare(RAIL, quantity="contact-filter", tolerance="1 dB").value)
     np.testing.assert_allclose(found.value, power.level, atol=1e-9)
     assert found.error == pytest.approx(found.power.error)
     assert found.power.total(found.model) == pytest.approx(power.total)
     # as large as in the bands that carry the sum, not as in the worst one
     errors = found.errors_of(solved)
     assert errors[np.isfinite(errors)].max() > found.error > 0.2
-    assert not validation.compare(RAIL, "sound-power", "0.1 dB", models=["linear, ellipse"]).met
+    assert not validation.compare(RAIL, quantity="sound-power", tolerance="0.1 dB", models=["linear, ellipse"]).met
 
 
 def test_what_lies_across_is_in_the_error_of_the_sum():
     """Half of the difference between ridges and isotropic ground, and linear theory's own."""
     ends = [
-        validation.compare(replace(RAIL, lateral_structure=across), "sound-power", "1 dB", models=["linear, ellipse"])
+        validation.compare(
+            replace(RAIL, lateral_structure=across),
+            quantity="sound-power",
+            tolerance="1 dB",
+            models=["linear, ellipse"],
+        )
         for across in ("ridges", "isotropic")
     ]
     apart = abs(np.subtract(*(end.power.total(end.model) for end in ends)))
-    open_ = validation.compare(replace(RAIL, lateral_structure=None), "sound-power", "3 dB", models=["linear, ellipse"])
+    open_ = validation.compare(
+        replace(RAIL, lateral_structure=None), quantity="sound-power", tolerance="3 dB", models=["linear, ellipse"]
+    )
     assert apart / 2 < open_.error < apart / 2 + 1.0
     assert "lateral_structure is not given" in open_.models[0].reason
 
@@ -210,7 +217,7 @@ def filter_as_asked(comparison, candidate):
 def test_each_quantity_of_a_rail_has_the_same_sound_power_by_each_filter():
     sums, models = [], ["linear, ellipse", "Remington"]
     for quantity in ("contact-filter", "equivalent-roughness", "sound-power"):
-        found = validation.compare(RAIL, quantity, "1 dB", models=models)
+        found = validation.compare(RAIL, quantity=quantity, tolerance="1 dB", models=models)
         written = json.loads(validation.to_json(found))
         sums.append([row["sound_power_dBA"] for row in written["models"] if row["sound_power_dBA"] is not None])
         assert len(written["a3_dB"]) == len(written["value"]) == found.value.size
@@ -239,7 +246,7 @@ def test_a_filter_that_is_louder_everywhere_is_louder_by_as_much():
 def test_former_levels_of_the_force_stay_in_files():
     """k times the equivalent displacement, k = 3 F / (2 d) with 50 kN and 65.6 um, A-weighted: 0 dB at 1 kHz."""
     scene = replace(RAIL, speed=1e3 * 10**-1.7)
-    found = validation.compare(scene, "contact-filter", "1 dB")
+    found = validation.compare(scene, quantity="contact-filter", tolerance="1 dB")
     written = json.loads(validation.to_json(found))
     newton = 1.5 * 50e3 / 65.6e-6 * 1e-6 * 10 ** (written["equivalent_dB"][20] / 20)
     assert written["force_dBA"][20] == pytest.approx(20 * math.log10(newton), abs=0.02)
@@ -290,11 +297,11 @@ def test_other_values_are_rejected_with_the_key_and_what_is_accepted(keys, words
 
 def test_without_a_speed_there_is_no_sound_power_and_the_key_is_named():
     still = replace(RAIL, speed=None)
-    found = validation.compare(still, "sound-power", "1 dB")
+    found = validation.compare(still, quantity="sound-power", tolerance="1 dB")
     assert not found.met and found.power is None and found.force is None
     assert "wheel.speed is missing" in summary(found)
-    assert validation.compare(still, "contact-filter", "1 dB").power is None
-    crawling = validation.compare(replace(RAIL, speed=0.01), "sound-power", "1 dB")
+    assert validation.compare(still, quantity="contact-filter", tolerance="1 dB").power is None
+    crawling = validation.compare(replace(RAIL, speed=0.01), quantity="sound-power", tolerance="1 dB")
     assert "50 Hz to 10 kHz" in summary(crawling)
     failed = planted("rail", "contact-filter", statuses=("failed", "out of range"), error=math.inf)
     assert failed.power is None and decibels(0.0) == 0.0

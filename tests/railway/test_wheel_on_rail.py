@@ -56,6 +56,18 @@ def test_a_wheel_that_vibrates_on_a_smooth_rail_is_not_lifted():
     assert np.ptp(force) > wheel.load
 
 
+@catches("a lift in flight").at(
+    "validation.railway.problems.wheel_on_rail.lift",
+    lambda wheel, force, approach: wheel.approach * (np.maximum(force, 0.0) / wheel.load) ** (2 / 3) - approach,
+)
+def test_a_wheel_in_flight_has_no_lift_and_is_lifted_by_the_roughness_that_it_stands_on():
+    wheel = problem(SPRINGS).wheel
+    d, r = wheel.approach * np.array([-0.5, 0.5, 1.0]), 1e-6
+    force = HertzLaw(wheel).force(0, d + r)
+    lift = wheel_on_rail.lift(wheel, force, d)
+    assert np.isnan(lift[0]) and lift[1:] == pytest.approx(r, rel=1e-9)
+
+
 def test_the_sphere_in_place_of_the_ellipse_has_its_load_curve_and_its_stiffness():
     wheel, contact = problem(BEM).wheel, STRIP.contact
     assert wheel.approach == pytest.approx(contact.approach, rel=1e-9)

@@ -16,7 +16,7 @@ from validation.analysis.number_text import level_as_factor, level_in_decibels, 
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
 from validation.benchmarks.work_precision.problem import BEM
-from validation.cases.punch import fractal_punch_study, interface
+from validation.cases.punch import fractal_punch_study
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
 from validation.cases.rolling.force_spectrum import LINEAR_3D, RMS_FORCE, RMS_LEVEL, SPRINGS
 from validation.cases.rolling.force_spectrum import OVER as OVER_ROLLED
@@ -24,7 +24,7 @@ from validation.cases.wheel.ensembles import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.railway.cases import across, rolled_filters
 from validation.railway.cases.filters import OFFSET
-from validation.railway.cases.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
+from validation.railway.cases.rail_dynamic import BEAM, BESIDE, RAIL, RMS, SPRINGS_OVER_BEM
 from validation.report.answers import first_screen, strip
 from validation.report.answers import question as seconds
 from validation.report.answers.first_screen import answered_questions, from_to, plain
@@ -244,7 +244,7 @@ def test_an_alternative_on_an_axis_of_its_own_says_which():
     found = {"h/d": [0.1], "h' a/d": [0.37]}
     wheel = section_of("wheel_3d", [failing], Table("wheel", found))
     moving = {"quantity": RMS + BESIDE, "model": SPRINGS_OVER_BEM, "tolerance": 1.0}
-    where = {OFFSET: 0.0, "f [Hz]": (100.0, 900.0)}
+    where = {RAIL: BEAM, OFFSET: 0.0, "f [Hz]": (100.0, 900.0)}
     rail = section_of("rail_dynamic", [at((0.1, 1.0), 0.2, **moving | {"where": where})])
     row = row_of("dynamic-wheel", wheel, rail, timed())
     assert words_of(row) == ["outside"]
@@ -279,7 +279,6 @@ OF_SPRINGS = "springs over boundary elements"
 SOURCES = {
     "mean-stiffness": ("fractal_punch", "mean stiffness", OF_SPRINGS, "Fbar"),
     "scatter": ("fractal_punch", "relative deviation", OF_SPRINGS, "Fbar"),
-    "area-and-gap": ("interface", ("contact fraction", "mean gap"), OF_SPRINGS, "contact in Persson's theory [%]"),
     "roll-off": ("interface", "stiffness", OF_SPRINGS, "contact in Persson's theory [%]"),
     "rolling-rms": ("rolling", "rms force", OF_SPRINGS, "h' a/d"),
     "rolling-spectrum": ("rolling", "rms of level of an octave", OF_SPRINGS, "h' a/d"),
@@ -299,6 +298,12 @@ INSTEAD = {
     ),
     ("contact-filter", "linear, ellipse"): ("across", "A3 over that of boundary elements", "linear, ellipse"),
     ("contact-filter", "spring bed"): ("across", "A3 over that of boundary elements", "spring bed wider by 2/√3"),
+    ("rolling-spectrum", "springs, rolling spectrum"): (
+        *("rolling", "rms of level of an octave", "springs, rolling spectrum over boundary elements"),
+    ),
+    ("dynamic-wheel", "springs, rolling spectrum"): (
+        *("wheel_3d", "level", "springs, rolling spectrum over boundary elements"),
+    ),
     ("dynamic-wheel", "linear filter, 3D"): ("wheel_3d", "level", "linear filter, 3D over boundary elements"),
     ("dynamic-wheel", "on a rail"): (
         "rail_dynamic",
@@ -407,15 +412,9 @@ def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
     assert strip_of(row) == [("ridges", "within"), ("alpha = 1", "outside"), ("isotropic ground", "outside")]
 
 
-def test_area_and_gap_are_both_needed_and_told_apart():
-    def row(*values):
-        where = {interface.ROLL_OFF: 8.0, interface.CONTACT: 0.1}
-        found = zip((interface.AREA, interface.GAP), values, strict=True)
-        numbers = [at((0.1, 1.0), value, where=where, quantity=quantity) for quantity, value in found]
-        return row_of("area-and-gap", section_of("interface", numbers))
-
-    assert "contact fraction 10 times, mean gap 0.5 times" in row(20.0, -6.0).answer
-    assert row(0.0, -6.0).word == "Outside tolerance"
+def test_springs_are_asked_for_no_contact_area_and_no_gap():
+    """They have neither."""
+    assert not any("area" in question.asks or "gap" in question.asks for question in QUESTIONS)
 
 
 def test_the_scatter_has_numbers_of_its_own():

@@ -320,10 +320,13 @@ def test_errors_stand_over_the_seconds_of_one_realisation(name):
 @pytest.mark.slow
 def test_the_race_has_seconds_along_and_seconds_over_cells():
     rows = [row for row in rows_of("race", "heats") if row["status"] == "finished"]
-    time, ratio, growth = drawing("race")(evidence_of("race")).axes[:3]
-    assert [axis.get_xlabel() for axis in (time, ratio, growth)] == ["time [s]", "time over bem3d", "cells"]
+    time, work, _, growth = axes = drawing("race")(evidence_of("race")).axes[:4]
+    labels = ["time [s]", "operator applications", "time / time of bem3d", "cells"]
+    assert [axis.get_xlabel() for axis in axes] == labels
     assert growth.get_ylabel() == "time to the residual [s]"
-    assert [axis.get_xscale() for axis in (time, ratio, growth)] == ["log"] * 3 and growth.get_yscale() == "log"
+    assert [axis.get_xscale() for axis in axes] == ["log"] * 4 and growth.get_yscale() == "log"
+    counted = {f"{number(row['operator applications']):.5e}" for row in rows}
+    assert {f"{x:.5e}" for line in work.lines for x in line.get_xdata()} == counted
     seconds = {f"{number(row['median [s]']):.5e}" for row in rows}
     drawn = {f"{x:.5e}" for container in time.containers for x in container.lines[0].get_xdata()}
     assert drawn == seconds

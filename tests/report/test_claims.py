@@ -88,7 +88,7 @@ def test_a_status_has_its_word_and_sign(verdicts, changes, words):
     text = summary(section_of(some))
     assert badges(text) == 2 * [(some.status.replace(" ", "-"), words)]
     assert text.count("It is 1 to 9.") == 1
-    assert lines_of(section_of(some))[1].endswith(f"{some.status}: It is so. It is 1 to 9.")
+    assert lines_of(section_of(some), verbose=True)[1].endswith(f"{some.status}: It is so. It is 1 to 9.")
 
 
 def test_the_front_page_lists_statements_of_the_book_and_of_the_field_alone():

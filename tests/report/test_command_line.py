@@ -95,7 +95,7 @@ SMALL = {
     "across": Across(across=("isotropic ground",), cells=(4, 5)),
     "rough_rail": RoughRail(offsets=(20.0,), strips=3, cells=(4, 5)),
     "rail_dynamic": RailDynamic(
-        offsets=(0.0,), others=(), longest=0.05, periods=2, rounds=(0, 1), cells=5, coarse=4, strips=3, compared=2
+        offsets=(0.0,), longest=0.05, periods=2, rounds=(0, 1), cells=5, coarse=4, strips=3, compared=2
     ),
     "rail_sound": RailSound(rail=shipped_rail(), seconds=0.02, repeats=2, cells=(4, 5), parts=2, blocks=5),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),

@@ -78,7 +78,7 @@ def test_the_grids_of_the_race_are_those_of_the_page():
 @pytest.mark.parametrize("case", [QUICK, FULL])
 def test_the_scenes_of_precision_are_counted_once(case):
     """By the page, which names them; the help counts none."""
-    assert len(case.problems()) == 4 and "four scenes: a sphere, a square punch, the punch of Fig. 14.1 and a" in (
+    assert len(case.problems()) == 5 and "five scenes: a sphere, a square punch, the punch of Fig. 14.1, one with" in (
         REPORTS.replace("\n", " ")
     )
     assert "scenes" not in COMMANDS["precision"]

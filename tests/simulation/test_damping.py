@@ -43,8 +43,8 @@ def test_without_damping_all_numbers_are_those_of_plain_velocity_verlet_to_the_b
     assert np.array_equal(linear(change, 0.0).steady_state(0.1), LinearLaw(WHEEL, change).steady_state(0.1))
 
 
-@catches("factor 2 in the constant of the dashpot").at("validation.simulation.motion.damping_rate", Times(2.0))
-@catches("a dashpot that drives the wheel").at("validation.simulation.motion.damping_rate", Times(-1.0))
+@catches("factor 2 in the constant of the dashpot").at("validation.scenes.wheel_body.damping_rate", Times(2.0))
+@catches("a dashpot that drives the wheel").at("validation.scenes.wheel_body.damping_rate", Times(-1.0))
 def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
     """y = A exp(-zeta t) (cos(w t) + zeta / w sin(w t)), w = sqrt(1 - zeta^2), released at rest."""
     errors, w = [], math.sqrt(1 - ZETA**2)
@@ -60,7 +60,7 @@ def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
 
 
 @catches("factor 2 in the dashpot of the steady state", frequency=0.5).at(
-    "validation.simulation.contact_laws.damping_rate", Times(2.0)
+    "validation.scenes.wheel_body.damping_rate", Times(2.0)
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("frequency", [0.5, 1.0, 3.0])
@@ -190,7 +190,7 @@ def without_a_dashpot(case):
 @pytest.mark.parametrize("model", [pytest.param(BEM, marks=pytest.mark.slow), SPRINGS])
 def test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot(model):
     case = on_rail(model)
-    d, force = wheel_on_rail.in_motion(case)
+    d, force = wheel_on_rail.in_motion(case, case.law())
     dt = case.time_step
     speed, swing = (d[2:] - d[:-2]) / (2 * dt), (d[2:] - 2 * d[1:-1] + d[:-2]) / dt**2
     c = 2 * ZETA * math.sqrt(case.wheel.stiffness * 500.0)

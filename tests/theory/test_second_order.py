@@ -116,3 +116,22 @@ def test_at_the_resonance_the_dashpot_alone_bears_the_force():
         q_max = 12 + 2 * omega
         (force,), (found,) = (of(omega, band, q_max=q_max) for of in (MOVING.force_spectrum, MOVING.acceleration))
         assert found == pytest.approx(2 * math.pi * force * (free / MOVING.mass) ** 2, rel=1e-5)
+
+
+@catches("a factor 2 in the integral over the resonance").at("validation.theory.rolling.over_the_resonance", Times(2.0))
+@catches("a mean square of both signs of the frequency").at(
+    "validation.theory.rolling.RollingWheel.over_resonance", Times(2.0)
+)
+def test_region_1_is_the_integral_over_the_resonance_and_goes_as_one_over_the_damping():
+    """A_F2 omega_0 / (8 zeta M^2) beside a fine sum over omega_0 / 2 to 2 omega_0, of first order in zeta."""
+    wheel, band = replace(FIXED, mass=2 / 4.0**2), BAND.c1d
+    off = []
+    for zeta in (0.02, 0.01, 0.005):
+        damped = replace(wheel, damping=zeta)
+        omega = 4.0 + np.sinh(np.linspace(-math.asinh(2 / zeta / 4), math.asinh(4 / zeta / 4), 250)) * 4 * zeta
+        summed = np.trapezoid(damped.acceleration(omega, band, q_max=BAND.q_max), omega) / (2 * math.pi)
+        off.append(damped.over_resonance(band, q_max=BAND.q_max) / summed - 1)
+    assert np.abs(off[-1]) < 0.03
+    assert np.abs(np.diff(np.array(off) / np.array([0.02, 0.01, 0.005]))).max() < 1.0
+    with pytest.raises(ValueError, match="damping must be positive, got 0: a resonance of no width has no integral"):
+        wheel.over_resonance(band, q_max=BAND.q_max)

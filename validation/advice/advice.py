@@ -10,7 +10,7 @@ from validation.advice.hierarchy import Candidate, contradicting
 from validation.advice.scene_model import SAMPLE_SHARE
 from validation.analysis.number_text import format_seconds
 from validation.analysis.statistics import student
-from validation.scenes.scene import Scene
+from validation.scenes.scene import INTERFACE, Scene
 from validation.simulation.method import realisations
 
 SOLVES_IT = "not solved (--models mdr solves it)"
@@ -33,37 +33,44 @@ def is_solved(comparison: Comparison, springs: Candidate) -> bool:
 
 
 def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
-    """Whether the springs are enough, in words that say where that is predicted alone, and why."""
+    """Whether the springs are accurate enough, in words that say where that is predicted alone, and why."""
     shown, limit = comparison.tolerance.shown_distinct(springs.error), comparison.tolerance.relative
     of = f" ({comparison.statistic})" if comparison.statistic else ""
     if comparison.beyond_elasticity:
-        return "not enough", comparison.beyond_elasticity
+        return "not accurate enough", comparison.beyond_elasticity
     if not math.isfinite(springs.error):
-        return "not known to be enough", springs.reason
+        return "not known to be accurate enough", springs.reason
     if not is_solved(comparison, springs):
-        enough = "predicted to be enough" if springs.error <= limit else "not sure to be enough"
+        enough = "predicted to be accurate enough" if springs.error <= limit else "not predicted to be accurate enough"
         bound = "" if comparison.scene.error_source else f", an upper bound in {100 * SHARE:.0f} % of scenes"
         return enough, f"its predicted error{of} is {shown}{bound}; {SOLVES_IT}"
     if against := contradicting(comparison.selection, springs):
-        return "not enough", f"{against.name}, with less bias, contradicts it"
+        return "not accurate enough", f"{against.name}, with less bias, contradicts it"
     if springs.error > limit:
-        return "not enough", f"its error{of} is {shown}"
-    return "enough", "the result is its own" if springs is comparison.selection.best else f"its error{of} is {shown}"
+        return "not accurate enough", f"its error{of} is {shown}"
+    return "accurate enough", "it is selected" if springs is comparison.selection.best else f"its error{of} is {shown}"
 
 
 def in_short(comparison: Comparison) -> str:
     """The verdict on MDR in one sentence."""
     springs = springs_of(comparison)
     if springs is None:
-        return "MDR has no springs for this scene"
+        return f"MDR has no {_lacking(comparison) or 'springs for this scene'}"
     enough, why = verdict(comparison, springs)
     return f"MDR ({springs.name}) is {enough}: {why}"
+
+
+def _lacking(comparison: Comparison) -> str:
+    """The quantity that MDR has of no scene; empty for any other."""
+    return comparison.quantity.replace("-", " ") if comparison.quantity in map(str, INTERFACE) else ""
 
 
 def in_full(comparison: Comparison) -> list[str]:
     """The verdict on MDR, a sentence for each model of springs."""
     springs = [candidate for candidate in comparison.models if candidate.is_mdr]
     if not springs:
+        if lacking := _lacking(comparison):
+            return [f"MDR: its springs have no neighbours, and it has no {lacking}."]
         return ["MDR: no springs are among the models of this scene."]
     return [
         f"MDR{f' ({candidate.name})' if len(springs) > 1 else ''}: {_sentence(comparison, candidate)}."

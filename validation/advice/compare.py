@@ -1,5 +1,6 @@
 """One scene: the quantity, the cheapest model that is accurate enough, and why."""
 
+import functools
 import hashlib
 import json
 import math
@@ -8,7 +9,8 @@ import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
-from typing import Any
+from pkgutil import resolve_name
+from typing import TYPE_CHECKING, Any, ParamSpec
 
 import numpy as np
 
@@ -31,12 +33,17 @@ from validation.advice.models_of_scene import (
 from validation.advice.scene_model import SceneModel, Shared
 from validation.advice.sound_power import ContactForce, SoundPower
 from validation.advice.tolerance import Tolerance, decibels, tolerance_of
-from validation.analysis.escapes import shortened
+from validation.analysis.contents import as_html
+from validation.analysis.escapes import one_line, shortened, shortened_text
+from validation.analysis.number_text import format_seconds, short
 from validation.analysis.spectra import MANTISSAS
 from validation.engine.engine import FloatArray
 from validation.scenes.scene import Scene, SceneQuantity, values_of
 from validation.scenes.units import UNITS, quantity
 from validation.simulation.model import Target
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
 
@@ -87,12 +94,18 @@ def beyond_elasticity(scene: Scene) -> str:
     )
 
 
+ROWS, PLOT = "validation.advice.table:rows_of", "validation.advice.figure:plot"
+"""Imported where they are asked for, since tables and figures are of comparisons."""
 MOST_REALISATIONS = 100_000
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""
 
 
-@dataclass(frozen=True)
+NumberOrLevels = Any
+"""A float of one number, an array of levels: a type checker cannot tell which, as of what NumPy's functions return."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Comparison:
     """Result of `compare`: a quantity of a scene, its error, and what became of each model.
 
@@ -101,8 +114,8 @@ class Comparison:
     scene : IndentationScene, RollingScene or RailScene
         The scene.
     quantity : str
-        "stiffness", "force-rms", "force-spectrum", "acceleration", "acceleration-rms", "contact-filter",
-        "equivalent-roughness" or "sound-power".
+        "stiffness", "contact-area", "mean-gap", "force-rms", "force-spectrum", "acceleration", "acceleration-rms",
+        "contact-filter", "equivalent-roughness" or "sound-power".
     selection : Selection
         Models, estimates and answers in full.
     in_decibels : bool
@@ -113,10 +126,10 @@ class Comparison:
         The value of a sweep, of which this is one scene.
     tolerance : Tolerance
         What was asked, with its unit.
-    value : ndarray
-        One number in SI units; for "force-spectrum" and "acceleration" a level in each one-third octave, in dB re 1 N
-        and 1 m/s^2, for "sound-power" in dB re 1 pW. NaN where no model has an answer. Read-only, as all arrays of a
-        comparison.
+    value : float or ndarray
+        One number in SI units; of a quantity in bands, as "force-spectrum", the level in each one-third octave, in dB
+        re 1 N or 1 m/s^2, of "sound-power" in dB re 1 pW. NaN where no model has an answer. Read-only, as all arrays
+        of a comparison.
     error : float
         Half-width of the 95 % interval: relative, in dB for levels. For levels it is that of all bands together.
     unit : str
@@ -153,6 +166,32 @@ class Comparison:
     timed: bool = False
     swept: Swept | None = None
 
+    def __repr__(self) -> str:
+        scene, model = shortened_text(self.scene.name, 24), shortened_text(self.model, 24)
+        within = f"{'within' if self.met else 'not within'} {self.tolerance}"
+        return one_line(f"Comparison({scene!r}: {self._answer}{f' by {model!r}' * bool(model)}, {within})")
+
+    def _repr_html_(self) -> str:
+        """The answer, and a row a model, for a notebook."""
+        within = f"{'within' if self.met else 'not within'} the tolerance of {self.tolerance}"
+        answer = f"{self.scene.name}: {self._answer}{f' by {self.model}' * bool(self.model)}, {within}"
+        columns: dict[str, Sequence[object]] = {
+            "model": [candidate.name for candidate in self.models],
+            "status": [candidate.status for candidate in self.models],
+            "error": [self.tolerance.shown(candidate.error) for candidate in self.models],
+            "cost": [format_seconds(candidate.cost) for candidate in self.models],
+        }
+        return as_html(answer, columns)
+
+    @property
+    def _answer(self) -> str:
+        """The value with its unit and error, of levels how many there are."""
+        if not self.model:
+            return f"{self.quantity}: no result"
+        if self.is_level:
+            return f"{self.quantity}, {np.size(self.value)} bands ± {short(self.error)} dB"
+        return f"{self.quantity} = {self.value:.4g} {self.unit} ± {short(100 * self.error)} %"
+
     @property
     def scene_quantity(self) -> SceneQuantity:
         """The quantity with its unit, and how it is judged."""
@@ -169,31 +208,85 @@ class Comparison:
         return Tolerance(self.selection.tolerance, self.in_decibels)
 
     @property
-    def value(self) -> FloatArray:
-        best = self.selection.best
-        return kept(np.full(max(1, self.wavenumbers.size), math.nan)) if best is None else self.value_of(best)
+    def value(self) -> NumberOrLevels:
+        if self.selection.best is not None:
+            return self.value_of(self.selection.best)
+        return self._number_or_levels(np.full(max(1, self.wavenumbers.size), math.nan))
 
-    def value_of(self, candidate: Candidate) -> FloatArray:
-        """The value that a solved model gives, in the unit of ``value``."""
-        assert candidate.answer is not None  # the docstring asks for a solved model
-        value = candidate.answer.value
-        return kept(20 * np.log10(value / self.scene_quantity.reference) if self.is_level else value)
+    def table(self) -> list[dict[str, object]]:
+        """All models as rows: a flat dict a number or a band, and one of each model that was not solved.
 
-    def errors_of(self, candidate: Candidate) -> FloatArray:
+        Returns
+        -------
+        list of dict
+            Keys scene, parameters of it in SI units (``"scene.load"``), quantity, tolerance (relative); wavelength_mm,
+            frequency_hz, nominal_hz; value, low, high, error and its parts error_model, error_grid, error_sample (half-
+            widths of 95 %), unit; model, status, selected, reason, predicted_error, cost_s, seconds and others, NaN
+            where there is no number. A data frame is ``pandas.DataFrame(comparison.table())``.
+
+        Examples
+        --------
+        >>> (row,) = validation.compare(validation.load_scene("sphere")).table()
+        >>> row["model"], row["status"], row["unit"], row["scene.load"]
+        ('closed form', 'accepted', 'N/m', 4905.0)
+        """
+        rows: list[dict[str, object]] = resolve_name(ROWS)(self)
+        return rows
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the models that were solved, the selected one with its error.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, by default those of a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, with the quantity and its unit.
+
+        Raises
+        ------
+        TypeError
+            If ``ax`` is no Axes.
+        """
+        axes: Axes = resolve_name(PLOT)(self, ax)
+        return axes
+
+    def value_of(self, candidate: Candidate) -> NumberOrLevels:
+        """The value that a solved model gives, in the unit of ``value``. Raises ValueError for one without a solve."""
+        value = candidate.solved_answer.value
+        return self._number_or_levels(20 * np.log10(value / self.scene_quantity.reference) if self.is_level else value)
+
+    def errors_of(self, candidate: Candidate) -> NumberOrLevels:
         """Half-widths of 95 % of a solved model, one for each number, in dB for levels and else in ``unit``."""
-        answer = candidate.answer
-        has_band_errors = answer is not None and answer.band_errors
-        return kept(
-            answer.error_in_bands if answer and has_band_errors else self._half_widths(candidate, candidate.error)
+        answer = candidate.solved_answer
+        return self._number_or_levels(
+            answer.error_in_bands if answer.band_errors else self._half_widths(candidate, candidate.error)
         )
 
-    def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:
+    def error_parts_of(self, candidate: Candidate) -> dict[str, NumberOrLevels]:
         """What model, grid and sample leave of `errors_of`, by their names; none of a model that was not solved."""
         if (answer := candidate.answer) is None:
             return {}
         parts = {"model": answer.model, "grid": answer.grid, "sample": answer.sample}
         half_widths = answer.band_errors or {name: self._half_widths(candidate, part) for name, part in parts.items()}
-        return {name: kept(half) for name, half in half_widths.items()}
+        return {name: self._number_or_levels(half) for name, half in half_widths.items()}
+
+    @property
+    def error_parts(self) -> dict[str, NumberOrLevels]:
+        """`error_parts_of` the model that gives ``value``: model, grid and sample; none where none has an answer."""
+        return {} if self.selection.best is None else self.error_parts_of(self.selection.best)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What may be wrong about the scene though it is valid, in sentences."""
+        return self.scene.diagnose()
+
+    def _number_or_levels(self, values: FloatArray) -> NumberOrLevels:
+        """One number as a float, levels as a read-only array."""
+        return kept(values) if self.is_level else float(values.item())
 
     @property
     def roughness(self) -> FloatArray:
@@ -206,7 +299,7 @@ class Comparison:
         Of sound power it is L_eq less L_r, both brought to bands of frequency.
         """
         roughness, over = self.scene.added_to_filter(self.quantity)
-        value = self.value_of(candidate)
+        value = np.asarray(self.value_of(candidate))
         return kept(value - (roughness + over)) if roughness.size else value
 
     def seconds_of(self, candidate: Candidate) -> float:
@@ -215,8 +308,8 @@ class Comparison:
 
     def _half_widths(self, candidate: Candidate, error: float) -> FloatArray:
         """Half-widths of each number, from a relative error of all numbers together."""
-        value = self.value_of(candidate)
-        return np.full(value.shape, decibels(error)) if self.is_level else error * np.abs(value)
+        value = np.asarray(self.value_of(candidate))
+        return np.full(value.shape, decibels(error)) if self.is_level else np.asarray(error * np.abs(value))
 
     @property
     def error(self) -> float:
@@ -307,12 +400,52 @@ def comparisons_of(comparison: OneOrSeveral) -> list[Comparison]:
     return list(comparison)
 
 
+P = ParamSpec("P")
+
+
+def with_earlier_places(compare: Callable[P, Comparison]) -> Callable[P, Comparison]:
+    """A second place that is a tolerance; for one release also quantity, tolerance and seed there, as in version 0.3.
+
+    What begins as a number is a tolerance, which no quantity does.
+    """
+
+    @functools.wraps(compare)
+    def with_places(*places: Any, **named: Any) -> Comparison:
+        if len(places) < 2 or (len(places) == 2 and not _is_quantity(places[1])):
+            return compare(*places, **named)
+        if not _is_quantity(places[1]):
+            raise TypeError(
+                f"compare takes scene and tolerance by place, and {', '.join(EARLIER_PLACES[::2])} and others by "
+                f"keyword, got {len(places)} places"
+            )
+        warnings.warn(
+            "compare takes a tolerance in second place now: give quantity, tolerance and seed by keyword",
+            FutureWarning,
+            stacklevel=2,
+        )
+        earlier = dict(zip(EARLIER_PLACES, places[1:], strict=False))
+        if twice := [name for name in earlier if name in named]:
+            raise TypeError(f"compare must have one {twice[0]}, got it by place and by keyword")
+        return compare(*places[:1], **earlier, **named)
+
+    return with_places
+
+
+EARLIER_PLACES = ("quantity", "tolerance", "seed")
+
+
+def _is_quantity(second: object) -> bool:
+    """Whether the second place has a quantity, or None for the first one of the scene."""
+    return second is None or (isinstance(second, str) and not re.match(r"\s*[-+.\d]", second))
+
+
+@with_earlier_places
 def compare(
     scene: Scene,
-    quantity: str | None = None,
     tolerance: float | str = 0.1,
-    seed: int = 0,
     *,
+    quantity: str | None = None,
+    seed: int = 0,
     solve_all: bool = False,
     models: str | Decorated | Sequence[str | Decorated] | None = None,
     realisations: int | None = None,
@@ -327,11 +460,11 @@ def compare(
     ----------
     scene : IndentationScene, RollingScene or RailScene
         What `load_scene` returns.
+    tolerance : float or str, optional
+        Largest half-width of the 95 % interval: relative, or a text as "5 %" or "0.4 dB", in whose unit errors are
+        printed; of a spectrum, of the root mean square over all bands.
     quantity : str, optional
         One that the scene has, by default the first.
-    tolerance : float or str, optional
-        Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB", in whose unit errors are
-        printed; of a spectrum, of the root mean square over all bands.
     seed : int, optional
         Seed of the roughness that is drawn, zero or positive.
     solve_all : bool, optional
@@ -357,7 +490,7 @@ def compare(
 
     Examples
     --------
-    >>> result = validation.compare(validation.load_scene("sphere"), tolerance=0.01)
+    >>> result = validation.compare(validation.load_scene("sphere"), "1 %")
     >>> result.quantity, result.model, result.met
     ('stiffness', 'closed form', True)
     """

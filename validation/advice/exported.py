@@ -5,14 +5,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.table import (
     AXES,
     OF_FORCE,
     OF_POWER,
     OF_RAIL,
+    PARTS,
     by_quantity,
     first_row,
+    front_of,
     result_table,
     swept_of,
     tables_of_models,
@@ -28,8 +32,9 @@ SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 CSV = (
     *("wavelength_mm", "frequency_hz", "value", "low", "high", "unit", "model", "selected", "statistic"),
     *(*OF_RAIL, *OF_POWER, *OF_FORCE, "seconds", "swept", "swept_value", "swept_unit"),
+    *("nominal_hz", "error", *(f"error_{name}" for name in PARTS), "status"),
 )
-"""Columns of `result_table` in a CSV, where the table has them."""
+"""Columns of `result_table` in a CSV, where the table has them; those of `front_of` follow."""
 
 
 def to_json(comparison: OneOrSeveral) -> str:
@@ -63,10 +68,9 @@ def to_json_of(comparisons: Sequence[Comparison]) -> str:
 
 def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
     """The object of one comparison that `SCHEMA_OF_JSON` describes, without infinities and NaN."""
-    table, best = result_table(comparison), comparison.selection.best
+    table = result_table(comparison)
     models = tables_of_models(table)
     columns: Mapping[str, Sequence[Any]] = next((model.columns for model in models if model["selected"][0]), {})
-    parts = comparison.error_parts_of(best) if best else {}
     return {
         "schema_version": SCHEMA,
         "scene": comparison.scene.name,
@@ -78,13 +82,15 @@ def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
         "statistic": comparison.statistic or None,
         "beyond_elasticity": comparison.beyond_elasticity or None,
         "model": comparison.model or None,
-        **{name: _finite_numbers(columns.get(name, comparison.value)) for name in ("value", "error")},
-        "error_parts": {name: _finite_numbers(halves) for name, halves in parts.items()},
+        **{name: _finite_numbers(columns.get(name, np.atleast_1d(comparison.value))) for name in ("value", "error")},
+        "error_parts": {
+            name: _finite_numbers(np.atleast_1d(halves)) for name, halves in comparison.error_parts.items()
+        },
         **{name: _finite_numbers(getattr(comparison, name)) for name in AXES},
         **{name: _finite_numbers(columns.get(name, ())) for name in OF_RAIL},
         **swept_of(comparison),
         "assumed": assumed(comparison.scene),
-        "notes": list(comparison.scene.diagnose()),
+        "notes": list(comparison.notes),
         "models": [_record_of_model(model) for model in models],
     }
 
@@ -103,12 +109,14 @@ def to_csv(comparison: OneOrSeveral) -> str:
         Columns wavelength_mm, frequency_hz, value, low, high, unit, model, selected; low and high end the 95 %
         interval; of rough bodies statistic, "ensemble mean" or "single surface". Of a rail also the levels
         roughness_dB, a3_dB and equivalent_dB, with a speed the sums of sound power, and former ones of the force; of
-        all models their seconds; of a sweep its value. A cell is empty where there is no number.
+        all models their seconds; of a sweep its value. Then nominal_hz, error with error_model, error_grid and
+        error_sample, status, quantity, tolerance (relative) and parameters of the scene in SI units, as scene.load. A
+        cell is empty where there is no number.
 
     Examples
     --------
     >>> text = validation.to_csv(validation.compare(validation.load_scene("sphere")))
-    >>> print(text.splitlines()[0])
+    >>> print(text.splitlines()[0][:61])
     wavelength_mm,frequency_hz,value,low,high,unit,model,selected
     """
     return as_csv(csv_table(comparisons_of(comparison))).decode()
@@ -119,10 +127,10 @@ def csv_table(comparisons: Sequence[Comparison]) -> Table:
     several, kinds = len(comparisons) > 1, len(by_quantity(comparisons)) > 1
     rows = list[dict[str, object]]()
     for comparison in comparisons:
-        front = ({"scene": comparison.scene.name} if several else {}) | (
-            {"quantity": comparison.quantity} if kinds else {}
-        )
-        rows += [front | row for row in _rows_of_comparison(comparison)]
+        asked = front_of(comparison)
+        first = {name: asked.pop(name) for name, leads in (("scene", several), ("quantity", kinds)) if leads}
+        asked.pop("scene", None)
+        rows += [first | row | asked for row in _rows_of_comparison(comparison)]
     return table_of(comparisons[0].quantity, rows)
 
 

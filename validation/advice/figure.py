@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from validation.advice.compare import Comparison, OneOrSeveral, comparisons_of
 from validation.advice.exported import csv_table
@@ -13,7 +14,7 @@ from validation.advice.table import by_quantity, counted_bands, reference_of, sh
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.series import ENDS
-from validation.report.drawing import DrawnPanel, picture_of
+from validation.report.drawing import DrawnPanel, drawn_on, picture_of
 from validation.report.style import FORMATS, in_two_lines, legend_name
 
 MOST = 5
@@ -59,6 +60,14 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     comparisons = comparisons_of(comparison)
     title, drawn = panels_of(comparisons)
     return _picture(title, drawn, form, partial(names_of_users, comparisons))
+
+
+def plot(comparison: Comparison, ax: Axes | None = None) -> Axes:
+    """The first panel of `to_figure` on axes of a user, or on those of a new figure."""
+    (panel, table), *_ = _panels_of_quantity([comparison])
+    names = [str(name) for name in table.columns.get("model", ())]
+    title = f"{comparison.scene.name}: {comparison.quantity}"
+    return drawn_on(ax, replace(panel, title=title), table, names_of_users([comparison], names))
 
 
 def panels_of(comparisons: Sequence[Comparison]) -> tuple[str, list[DrawnPanel]]:
@@ -251,7 +260,8 @@ def _interval_of_model(comparison: Comparison, name: str, wave: float) -> Interv
     for candidate in comparison.selection.solved:
         at = 0 if math.isnan(wave) else _index_of_band(comparison, wave)
         if candidate.name == name and at is not None:
-            return _interval(comparison.value_of(candidate)[at], comparison.errors_of(candidate)[at])
+            value, half_width = map(np.atleast_1d, (comparison.value_of(candidate), comparison.errors_of(candidate)))
+            return _interval(value[at], half_width[at])
     return math.nan, math.nan, math.nan
 
 

@@ -9,6 +9,8 @@ from typing import Literal
 import numpy as np
 
 from validation.advice.scene_model import Answer, SceneModel
+from validation.analysis.escapes import one_line, shortened_text
+from validation.analysis.number_text import short
 from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.simulation.model import ErrorEstimate
 
@@ -49,6 +51,13 @@ def distance_of(first: Answer, second: Answer) -> float:
 
 
 Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range", "not asked"]
+
+
+def percent(error: float) -> str:
+    """A relative error in per cent, two digits."""
+    return f"{short(100 * error)} %"
+
+
 REFUSALS = (ValueError, ArithmeticError, MemoryError, NotConvergedError)
 """What a solve raises where it has no answer to a scene; it is a row of the table, and the other models go on."""
 
@@ -62,6 +71,10 @@ class Candidate:
     reason: str
     estimate: ErrorEstimate
     answer: Answer | None = None
+
+    def __repr__(self) -> str:
+        error = f"error {percent(self.error)}" if math.isfinite(self.error) else "error unknown"
+        return one_line(f"Candidate({shortened_text(self.name)!r}, {self.status}, {error})")
 
     @property
     def name(self) -> str:
@@ -111,6 +124,11 @@ class Selection:
 
     tolerance: float
     candidates: tuple[Candidate, ...]
+
+    def __repr__(self) -> str:
+        best = f"{shortened_text(self.best.name)!r}" if self.best else "no model"
+        within = "within" if self.met else "not within"
+        return f"Selection({best} {within} {percent(self.tolerance)}, {len(self.candidates)} models)"
 
     @property
     def met(self) -> bool:

@@ -6,9 +6,9 @@ from typing import Any, Protocol, SupportsIndex, TypeVar, overload, runtime_chec
 
 from validation.advice.hierarchy import Candidate, needed
 from validation.advice.scene_model import SceneModel, Shared
-from validation.analysis.escapes import quoted
+from validation.analysis.escapes import one_line, quoted
 from validation.engine.street import objects_of_houses, places
-from validation.scenes.scene import MOVING, PRESSED, ROLLING, Scene, SceneQuantity
+from validation.scenes.scene import INTERFACE, MOVING, PRESSED, ROLLING, Scene, SceneQuantity
 from validation.simulation.method import Resolution
 from validation.simulation.model import Model, Target, models_serving
 from validation.simulation.model_names import SHORT, SPRINGS_THAT_READ, label_of, note_of
@@ -20,7 +20,7 @@ BY_NAME = (SPRINGS_THAT_READ,)
 def all_quantities() -> tuple[str, ...]:
     """Keys of the quantities of all scenes."""
     brought_by_houses = (quantity for quantities in objects_of_houses("quantities") for quantity in quantities)
-    return tuple(map(str, (*PRESSED, *ROLLING, *MOVING, *brought_by_houses)))
+    return tuple(map(str, (*PRESSED, *INTERFACE, *ROLLING, *MOVING, *brought_by_houses)))
 
 
 def quantities_of(scene: Scene) -> tuple[str, ...]:
@@ -153,6 +153,10 @@ class ComparedModels(tuple[Candidate, ...]):
     """All models, the cheapest first; a text stands for the one that it names."""
 
     __slots__ = ()
+
+    def __repr__(self) -> str:
+        """The names, as many as a line has room for."""
+        return one_line(f"ComparedModels({len(self)}: {', '.join(repr(candidate.name) for candidate in self)})")
 
     @overload
     def __getitem__(self, which: str | SupportsIndex) -> Candidate: ...

@@ -4,13 +4,14 @@ import itertools
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
 from bem3d.results import kept
+from validation.analysis.escapes import one_line
 from validation.engine.engine import FloatArray
 from validation.simulation.method import STUDENT, Prepared, Resolution, Result, mean_error, realisations, too_few
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
@@ -107,6 +108,13 @@ class SceneModel:
     resolution: Resolution
     shared: Shared = field(default_factory=dict, repr=False, compare=False)
     realisations: int | None = None
+
+    def __repr__(self) -> str:
+        return one_line(f"SceneModel({self.name!r}, {self.target.quantity})")
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without solves, whose numbers are in answers, and without what is computed from the fields."""
+        return {each.name: getattr(self, each.name) for each in fields(self)} | {"shared": {}}
 
     @property
     def kind(self) -> str:

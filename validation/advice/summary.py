@@ -1,4 +1,4 @@
-"""The text that `compare` prints: what was understood, what became of each model, the result, whether MDR is enough."""
+"""The text that `compare` prints: the result with its error, whether MDR is accurate enough, each model, the scene."""
 
 import math
 import string
@@ -6,6 +6,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from validation.advice.table import (
     tables_of_models,
 )
 from validation.advice.tolerance import NAMES, Columns, Tolerance, decibels, percentage
-from validation.analysis.evidence import Table
+from validation.analysis.evidence import Table, Verdict
 from validation.analysis.number_text import (
     NONE,
     format_seconds,
@@ -46,18 +47,22 @@ WIDTH = 100
 CAUSE, CLAUSE = ": ", "; "
 """Between a clause and its cause, and between clauses of a reason."""
 ASSUMED = "elastic half-spaces, isotropic, without friction and adhesion"
+LEAST_ROOM = 12
+"""Characters of a column of status, at the least."""
 ABREAST = 10
 """Models in a table, so that its lines fit."""
 STATUS_IN_WORDS: dict[Status, str] = {
-    "accepted": "enough, and the cheapest that is",
-    "not accurate enough": "solved: not enough",
-    "skipped": "not solved: its claim is too high",
-    "not needed": "not solved: a cheaper is enough",
-    "failed": "solved: no result",
-    "out of range": "not solved: its error is unknown",
-    "not asked": "not solved: not asked for",
+    "accepted": "selected",
+    "not accurate enough": "rejected: estimated error above the tolerance",
+    "skipped": "rejected: predicted error above the tolerance",
+    "not needed": "not needed",
+    "failed": "no result",
+    "out of range": "rejected: predicted error unknown",
+    "not asked": "not requested",
 }
-"""What became of a model, in words."""
+"""The status of a model as it is printed."""
+PARTS = {"model": "model", "grid": "discretisation", "sample": "sampling"}
+"""Parts of an error by the names that `Answer` has, in words."""
 BANDS: dict[str, tuple[str, Callable[[float], str]]] = {
     "wavelength_mm": ("wavelength [mm]", "{:.4g}".format),
     "frequency_hz": ("f [Hz]", "{:.4g}".format),
@@ -95,15 +100,27 @@ def summary(comparison: OneOrSeveral) -> str:
     if not isinstance(comparison, Comparison):
         comparisons = comparisons_of(comparison)
         return "\n".join([*overview(comparisons), *help_with(comparisons)])
-    understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
-    return f"{understood}\n{findings([comparison], in_full)}"
+    asked = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
+    return "\n".join([asked, findings([comparison], in_full), facts(comparison.scene, [comparison.quantity])])
 
 
 def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> str:
-    """What was understood, before anything is solved: what is asked, bodies, contact, roughness, what is assumed."""
-    described = description_lines(scene, moving=any(quantity_of(scene, key).of_motion for key in quantities))
-    lines = [f"{scene.name}: {', '.join(quantities)} within {tolerance}", *described, f"  {'assumed':18s}  {ASSUMED}"]
-    return "\n".join(part for line in lines for part in wrapped([line], indent=22 if line[0] == " " else 4))
+    """What is asked, and notes on the scene, before anything is solved."""
+    notes = [line for line in _description(scene, quantities) if line[0] != " "]
+    lines = [f"{scene.name}: {', '.join(quantities)} within {tolerance}", *notes]
+    return "\n".join(wrapped(lines, indent=4))
+
+
+def facts(scene: Scene, quantities: Sequence[str]) -> str:
+    """The scene as it was read: bodies, contact, roughness, what is assumed."""
+    described = [line for line in _description(scene, quantities) if line[0] == " "]
+    lines = ["", "scene", *described, f"  {'assumed':18s}  {ASSUMED}"]
+    return "\n".join(wrapped(lines, indent=22))
+
+
+def _description(scene: Scene, quantities: Sequence[str]) -> list[str]:
+    """Notes, and indented lines of the description; of motion where a quantity is of it."""
+    return description_lines(scene, moving=any(quantity_of(scene, key).of_motion for key in quantities))
 
 
 def findings(comparisons: Sequence[Comparison], lines_of: Callable[[Sequence[Comparison]], Iterator[str]]) -> str:
@@ -114,35 +131,35 @@ def findings(comparisons: Sequence[Comparison], lines_of: Callable[[Sequence[Com
     lines = [line for part in parts.values() for line in lines_of(part)]
     # no blank line below another
     single_spaced = [line for before, line in zip(["text", *lines], lines, strict=False) if line or before]
-    return "\n".join(wrapped(single_spaced, indent=4))
+    return "\n".join(wrapped(single_spaced, indent=4)).rstrip("\n")
 
 
 def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
-    """What became of each model and why, the result, what it rests on and cost, and whether MDR is enough."""
+    """`in_short`, and why each model has its status, sound power in bands, and what errors rest on and cost."""
     comparison = quantities[0]
     best = comparison.selection.best
+    yield from (*_answer_lines(quantities), *on_mdr.in_full(comparison), "", *would_help(comparison))
     yield from (*models_as_lines(comparison), "", *_reasons(comparison), "")
-    if best is None or best.answer is None:
-        yield no_answer(comparison)
-        yield from side_by_side(comparison)
-    else:
-        yield from (result_of(quantity, best.answer) for quantity in quantities)
-        yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
-        yield from columns_as_lines(bands_of(comparison, best.name)) if comparison.is_level else ()
-        if power := comparison.power:
-            yield from ("", *power.sentences, *(f"  {line}" for line in columns_as_lines(power.table)), "")
-        yield from side_by_side(comparison)
+    yield from _bands_as_lines(comparison)
+    if best is not None and (power := comparison.power):
+        yield from ("", *power.sentences, *(f"  {line}" for line in columns_as_lines(power.table)), "")
+    yield from side_by_side(comparison)
+    if best is not None:
         yield from (age_of_errors(comparison), cost_of(comparison))
-    yield from (*what_would_help(comparison), *on_mdr.in_full(comparison))
 
 
 def models_as_lines(comparison: Comparison) -> Iterator[str]:
-    """What became of each model."""
+    """A row a model: predicted and estimated error, cost, and status; a long status goes on below."""
     head, spent = ("took", "seconds") if comparison.timed else ("cost", "cost")
-    yield from ("", f"{'model':36s}{'claims':>12s}{'found':>9s}{head:>8s}  what became of it")
-    for row in models_of_page(comparison):
-        errors = f"{row['predicted_error']:>12s}{row['error']:>9s}"
-        yield f"{row['model']:36s}{errors}{row[spent]:>8s}  {row['status']}"
+    rows = models_of_page(comparison)
+    width = max((len(row["model"]) for row in rows), default=5) + 1
+    yield from ("", f"{'model':{width}s}{'predicted':>10s}{'estimated':>11s}{head:>9s}  status")
+    for row in rows:
+        cells = f"{row['model']:{width}s}{row['predicted_error']:>10s}{row['error']:>11s}{row[spent]:>9s}  "
+        room = WIDTH - len(cells)
+        status = textwrap.wrap(row["status"], room) if room >= LEAST_ROOM else [row["status"]]
+        yield f"{cells}{status[0]}"
+        yield from (f"{'':{len(cells)}s}{line}" for line in status[1:])
 
 
 def no_answer(comparison: Comparison) -> str:
@@ -222,7 +239,7 @@ def _cells_of_bands(table: Table, names: Iterable[str], units: Mapping[str, str]
 
 
 def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
-    """A row a model: what it claims, found and costs, how far it is from the reference, and what became of it."""
+    """A row a model: predicted and estimated error, cost, status, and how far it is from the reference."""
     return [_cells_of_model(comparison, table) for table in tables_of_models(result_table(comparison))]
 
 
@@ -232,22 +249,30 @@ def _cells_of_model(comparison: Comparison, table: Table) -> dict[str, str]:
     predicted, answered = model["predicted_error"], model["answered"]
     return {
         "model": label(model["model"], is_mdr=model["is_mdr"]),
-        "predicted_error": tolerance.shown(predicted) if math.isfinite(predicted) else "out of range",
+        "predicted_error": tolerance.shown(predicted) if math.isfinite(predicted) else "unknown",
         "error": tolerance.shown_distinct(model["relative_error"]) if answered else NONE,
         "difference": _largest_difference(comparison, table) if model["solved"] and not model["is_reference"] else NONE,
         "cost": format_seconds(model["spent_s"] if answered else model["cost_s"]),
         "seconds": format_seconds(model.get("seconds", math.nan), least="< 1 ms"),
-        "status": _status_in_words(comparison, model["status"], answered=answered),
+        "status": _status_in_words(comparison, model),
         "reason": model["reason"],
         "selected": "selected" if model["selected"] else "",
     }
 
 
-def _status_in_words(comparison: Comparison, status: Status, *, answered: bool) -> str:
-    """The status of a model as the table prints it; beyond linear elasticity no status says enough or not needed."""
+def _status_in_words(comparison: Comparison, model: Mapping[str, Any]) -> str:
+    """The status of a model as the table prints it. model: its row of `result_table`.
+
+    A model that is rejected although its error is within the tolerance has the first clause of its reason.
+    """
+    status, reason = model["status"], model["reason"].partition(CLAUSE)[0]
     if comparison.beyond_elasticity and status in ("accepted", "not accurate enough", "not needed"):
-        return f"{'solved' if answered else 'not solved'}: no elastic half-space"
-    return STATUS_IN_WORDS[status].removeprefix("not " if answered else "")
+        return "rejected: no elastic half-space"
+    if status == "failed":
+        return f"{STATUS_IN_WORDS[status]}: {reason}"
+    if status == "not accurate enough" and model["relative_error"] <= comparison.tolerance.relative:
+        return f"rejected: {reason}"
+    return STATUS_IN_WORDS[status]
 
 
 def label(model: str, *, is_mdr: bool) -> str:
@@ -336,7 +361,7 @@ def side_by_side(comparison: Comparison) -> Iterator[str]:
 
 
 def overview_of(comparisons: Sequence[Comparison]) -> Columns:
-    """A row a scene: the model that is enough, its error, that of MDR, and the result, a number or the sound power."""
+    """A row a scene: the selected model, its error, that of MDR, and the result, a number or the sound power."""
     several = len({comparison.quantity for comparison in comparisons}) > 1
     rows = [_row_of_scene(comparison, several) for comparison in comparisons]
     return {name: [row[name] for row in rows] for name in rows[0]}
@@ -349,13 +374,13 @@ def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
     if best is None:
         result = ""
     elif comparison.is_level:
-        result = power.shown if (power := comparison.power) else f"{comparison.value.size} bands"
+        result = power.shown if (power := comparison.power) else f"{np.size(comparison.value)} bands"
     else:
-        (value,), (half,) = comparison.value, comparison.errors_of(best)
+        value, half = float(comparison.value), float(comparison.errors_of(best))
         result = f"{scaled(float(value), float(half))} {comparison.unit}"
     return {
         "scene": f"{scene}: {comparison.quantity}" if several else scene,
-        "model": label(best.name, is_mdr=best.is_mdr) if best and comparison.met else "none is enough",
+        "model": label(best.name, is_mdr=best.is_mdr) if best and comparison.met else "none",
         "error": shown(best.error) if best else "none",
         "MDR": NONE if springs is None else f"{shown(springs.error)}{_prediction_note(comparison, springs)}",
         "result": result,
@@ -419,42 +444,57 @@ def wrapped(lines: list[str], indent: int) -> Iterator[str]:
 
 
 def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
-    """Table of models, result, error and a sentence on MDR, of quantities that have the same solves and errors."""
+    """The answer, its error, a sentence on MDR and the table of models, of quantities with the same solves."""
+    comparison = quantities[0]
+    yield from (*_answer_lines(quantities), on_mdr.in_short(comparison), "", *would_help(comparison))
+    yield from (*models_as_lines(comparison), "")
+    yield from (*_bands_as_lines(comparison), *side_by_side(comparison))
+
+
+def _answer_lines(quantities: Sequence[Comparison]) -> Iterator[str]:
+    """The value with its error, its model and its verdict, and the parts of the error."""
     comparison = quantities[0]
     best = comparison.selection.best
-    yield from models_as_lines(comparison)
-    yield ""
-    if best is not None and best.answer is not None and comparison.is_level:
-        yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
-        yield from columns_as_lines(bands_of(comparison, best.name))
-    yield from side_by_side(comparison)
-    yield from would_help(comparison)
     yield ""
     if best is None or best.answer is None:
         yield no_answer(comparison)
     else:
-        yield from (_value_sentence(quantities, best.answer), _error_sentence(comparison, best.answer))
-    yield on_mdr.in_short(comparison)
+        yield from (_value_sentence(quantities, best, best.answer), _error_sentence(comparison, best.answer))
 
 
-def _value_sentence(quantities: Sequence[Comparison], answer: Answer) -> str:
-    """One number with its error, or how many bands there are, of a rail with the sound power that they leave."""
+def _bands_as_lines(comparison: Comparison) -> Iterator[str]:
+    """The spectrum of the result, a row a band; nothing of a single number."""
+    best = comparison.selection.best
+    if best is not None and best.answer is not None and comparison.is_level:
+        yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
+        yield from columns_as_lines(bands_of(comparison, best.name))
+
+
+def _value_sentence(quantities: Sequence[Comparison], best: Candidate, answer: Answer) -> str:
+    """One number with its error, or how many bands there are, of a rail with the sound power that they leave.
+
+    Behind it the model, what its solve took, and whether the tolerance is met.
+    """
     comparison = quantities[0]
     name = comparison.quantity if len(quantities) == 1 else "both"
-    of = f", {comparison.statistic}" if comparison.statistic else ""
     if not comparison.is_level:
         value = float(answer.value[0])
-        return f"{name} = {scaled(value, value * answer.error)} {comparison.unit} by {comparison.model}{of}"
-    power = comparison.power
-    weighted = f", sound power {power.shown}" if power else ""
-    return f"{name} by {comparison.model}: {comparison.value.size} bands{of}{weighted}"
+        result = f"{name} = {scaled(value, value * answer.error)} {comparison.unit}"
+    else:
+        power = comparison.power
+        result = f"{name} in {np.size(comparison.value)} bands{f', sound power {power.shown}' if power else ''}"
+    of = f"{comparison.statistic}, " if comparison.statistic else ""
+    seconds = comparison.seconds_of(best)
+    took = format_seconds(seconds if math.isfinite(seconds) else answer.cost.seconds)
+    verdict = Verdict.WITHIN if comparison.met else Verdict.OUTSIDE
+    return f"{result} ({of}by {label(best.name, is_mdr=best.is_mdr)}, {took}): {verdict}"
 
 
 def _error_sentence(comparison: Comparison, answer: Answer) -> str:
-    """The error compared with the tolerance, and its parts: model, grid and sample."""
+    """The error beside the tolerance, and its parts: model, discretisation and sampling."""
     tolerance = comparison.tolerance
-    parts = {name: part for name in ("model", "grid", "sample") if (part := getattr(answer, name))}
+    parts = {words: part for name, words in PARTS.items() if (part := getattr(answer, name))}
     error = error_of_levels(comparison, answer) if comparison.is_level else tolerance.shown_distinct(answer.error)
-    parts_text = ", ".join(f"{name} {tolerance.shown(part)}" for name, part in parts.items())
-    parts_text = f": {parts_text}" if len(parts) > 1 else "".join(f"; all of it is the {name}'s" for name in parts)
-    return f"error {error}, {'within' if comparison.met else 'not within'} {tolerance}{parts_text}"
+    listed = ", ".join(f"{words} {tolerance.shown(part)}" for words, part in parts.items())
+    budget = f", of which {listed}" if len(parts) > 1 else "".join(f", all of it {words} error" for words in parts)
+    return f"error ± {error} (95 %){budget}; tolerance {tolerance}"

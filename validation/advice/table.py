@@ -16,7 +16,9 @@ from validation.advice.hierarchy import ALIKE, Candidate, bias
 from validation.advice.sound_power import ContactForce
 from validation.advice.tolerance import decibels, percentage
 from validation.analysis.evidence import Table, table_of
+from validation.analysis.spectra import assessed_bands
 from validation.engine.engine import FloatArray
+from validation.scenes.scene import parameters_of
 
 TOGETHER = "both errors together: of the models the sum, of grid and sample the root of the sum of squares"
 """How the half-width of a difference follows from the errors of both models."""
@@ -26,13 +28,16 @@ OF_POWER = ("sound_power_dBA", "sound_power_over_selected_dB")
 OF_FORCE = ("force_sum_dBA", "force_over_selected_dB")
 """Former columns, as force_dBA of `OF_RAIL`: a force has the wrong weight, also for differences of filters."""
 DIFFERENCES = ("difference_dB", "difference_error_dB")
+PARTS = ("model", "grid", "sample")
+"""Of an error, as `Comparison.error_parts_of` names them."""
 
 
 def result_table(comparison: Comparison) -> Table:
     """What `compare` found: a row a number or a band of each model that was solved, and one row of each other model.
 
     Columns of each number, NaN where there is none
-        wavelength_mm, frequency_hz, nominal_hz; value, low, high, error (half-width of 95 %), in ``unit``;
+        wavelength_mm, frequency_hz, nominal_hz; value, low, high, error (half-width of 95 %), in ``unit``, and its
+        parts error_model, error_grid and error_sample;
         difference_dB and difference_error_dB from the reference, and whether the tolerance counts there (is_counted);
         of a wheel q_a and amplitude; of a rail `OF_RAIL`.
     Columns of each model, equal in all of its rows
@@ -52,6 +57,29 @@ def result_table(comparison: Comparison) -> Table:
         rows += [dict(zip(columns, row, strict=True)) for row in zip(*cells, strict=True)]
     # a scene may have no model at all
     return table_of(comparison.quantity, rows) if rows else Table(comparison.quantity, {"rank": [], "solved": []})
+
+
+def rows_of(comparison: Comparison) -> list[dict[str, object]]:
+    """Rows of `result_table` behind the scene, its parameters ("scene.load" in SI units), quantity and tolerance.
+
+    Each has the seconds that the solves of its model took by the clock, NaN where it was not solved.
+    """
+    table = result_table(comparison).columns
+    answers = {candidate.name: candidate.answer for candidate in comparison.models}
+    front = front_of(comparison)
+    rows = [dict(zip(table, cells, strict=True)) for cells in zip(*table.values(), strict=True)]
+    return [
+        front | row | {"seconds": answer.seconds if (answer := answers[str(row["model"])]) else math.nan}
+        for row in rows
+        if "model" in row
+    ]
+
+
+def front_of(comparison: Comparison) -> dict[str, object]:
+    """What was asked: name and parameters of the scene, quantity, and tolerance (relative)."""
+    parameters = {f"scene.{name}": value for name, value in parameters_of(comparison.scene).items() if name != "name"}
+    asked = {"quantity": comparison.quantity, "tolerance": comparison.tolerance.relative}
+    return {"scene": comparison.scene.name, **parameters, **asked}
 
 
 def tables_of_models(table: Table) -> list[Table]:
@@ -77,6 +105,7 @@ def _columns_of_numbers(
     axes: dict[str, FloatArray] = {name: getattr(comparison, name) for name in AXES}
     columns: dict[str, Any] = {name: axis if axis.size else math.nan for name, axis in axes.items()}
     columns |= dict(zip(NUMBERS, (value, value - half, value + half, half), strict=True))
+    columns |= {f"error_{name}": part for name, part in comparison.error_parts_of(candidate).items()}
     differing = differences(candidate, reference), error_of_difference(comparison, candidate)
     columns |= dict(zip(DIFFERENCES, differing, strict=True))
     columns["is_counted"] = counted_bands(comparison, reference)
@@ -96,7 +125,7 @@ def _columns_of_model(
     """What a model has once: its status, its errors, what it costs, and of what the comparison is."""
     answer, name = candidate.answer, candidate.name
     columns: dict[str, object] = {
-        **dict.fromkeys((*AXES, *NUMBERS, *DIFFERENCES), math.nan),
+        **dict.fromkeys((*AXES, *NUMBERS, *(f"error_{name}" for name in PARTS), *DIFFERENCES), math.nan),
         "is_counted": False,
         "unit": comparison.unit,
         "model": name,
@@ -167,8 +196,10 @@ def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndar
 
 def counted_bands(comparison: Comparison, candidate: Candidate) -> NDArray[np.bool_]:
     """Mask of the bands in which the tolerance counts: of a rail, those of which more than next to nothing is left."""
-    level = comparison.a3_of(candidate) if comparison.roughness.size else np.zeros(comparison.value_of(candidate).size)
-    return np.asarray(level > comparison.scene_quantity.counted_above)
+    level = (
+        comparison.a3_of(candidate) if comparison.roughness.size else np.zeros(np.size(comparison.value_of(candidate)))
+    )
+    return assessed_bands(level, comparison.scene_quantity.counted_above)
 
 
 def shown_models(comparison: Comparison) -> list[str]:

@@ -9,6 +9,7 @@ from typing import Any, Literal
 from validation.analysis.chart import Chart
 from validation.analysis.claim_text import in_sentence
 from validation.analysis.claims import Claim, Matrix
+from validation.analysis.escapes import one_line
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.number_text import with_prefix
 from validation.analysis.series import Series, numbers_of, tables_of
@@ -78,6 +79,9 @@ class Case:
     needs: Callable[[Any], str] | str
     study: "Study"
     timed: bool = False
+
+    def __repr__(self) -> str:
+        return one_line(f"Case({self.name!r}, {self.answers})")
 
     def evidence(self, result: Any) -> "Evidence":
         """The tables, numbers, claims and charts that the study derives from a result of `run`."""

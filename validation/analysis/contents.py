@@ -7,6 +7,7 @@ import math
 import re
 import unicodedata
 from collections.abc import Callable, Mapping, Sequence
+from html import escape
 from typing import Any
 
 from validation.analysis.escapes import cell_text, json_text, printable
@@ -131,6 +132,27 @@ def csv_name(case: str, table: str) -> str:
 def header_of(table: Table) -> list[str]:
     """Names of its columns, those of values with the unit of the table."""
     return [f"{name} [{table.unit}]" if table.unit and name in VALUES else name for name in table.columns]
+
+
+MOST_ROWS = 12
+"""Of a table in a notebook."""
+CELL = "text-align: left; padding: 0.1em 1em 0.1em 0; border-bottom: 1px solid currentColor"
+
+
+def as_html(answer: str, columns: Mapping[str, Sequence[object]]) -> str:
+    """An answer and a small table for a notebook: texts are no markup, colours are those of the page, also dark.
+
+    columns: of equal length, by their heads; rows from `MOST_ROWS` on are counted.
+    """
+    rows = list(zip(*columns.values(), strict=True))
+    more = f"<p>and {len(rows) - MOST_ROWS} more</p>" if len(rows) > MOST_ROWS else ""
+    head = "".join(f'<th style="{CELL}">{escape(name)}</th>' for name in columns)
+    lines = [
+        "<tr>" + "".join(f'<td style="{CELL}">{escape(printable(str(cell)))}</td>' for cell in row) + "</tr>"
+        for row in rows[:MOST_ROWS]
+    ]
+    table = f'<table style="border-collapse: collapse; color: inherit"><tr>{head}</tr>{"".join(lines)}</table>'
+    return f"<div><p><strong>{escape(printable(answer))}</strong></p>{table}{more}</div>"
 
 
 def as_csv(table: Table, *, drawn: bool = False) -> bytes:

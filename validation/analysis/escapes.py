@@ -6,7 +6,10 @@ messages stand on one line of bounded length.
 
 import codecs
 import json
+import os
+import re
 import reprlib
+import sys
 import unicodedata
 from collections.abc import Iterable
 from typing import Any
@@ -22,6 +25,18 @@ def printable(text: object, *, lines: bool = False) -> str:
     return "".join(
         c if (lines and c == "\n") or _harmless(c) else c.encode("unicode_escape").decode() for c in str(text)
     )
+
+
+def coloured(text: str) -> str:
+    """A text whose words for verdicts are coloured where standard output is a terminal and NO_COLOR is not set.
+
+    The words say all that the colours do.
+    """
+    if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" or not sys.stdout.isatty():
+        return text
+    for colour, words in COLOURS.items():
+        text = re.sub(words, lambda word, colour=colour: f"\x1b[{colour}m{word[0]}\x1b[0m", text)  # type: ignore[misc]
+    return text
 
 
 def is_printable(text: str) -> bool:
@@ -47,6 +62,12 @@ def _harmless(character: str) -> bool:
     return character.isprintable() or unicodedata.category(character) == "Zs"
 
 
+COLOURS = {
+    31: r"(?:\boutside tolerance\b|\bno result\b|\brejected(?=: )|\bcheck not passed\b|\bexit status [1-9]\b)",
+    33: r"\brefuted(?=: )|\binconclusive(?=: )",
+    32: r"\bwithin tolerance\b|\bsupported(?: within limits)?(?=: )|(?<=  )selected\b|\bexit status 0\b",
+}
+"""Numbers of colours of a terminal, red, yellow and green, and the words that have them."""
 MAX_CHARACTERS = 120
 """Characters of a value in a message, at the most."""
 
@@ -75,6 +96,21 @@ _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = MAX_CHARACTERS
 def shortened(value: object) -> str:
     """A value as Python writes it, shortened, however deep it is nested."""
     return printable(_SHORT.repr(value))
+
+
+MOST_IN_LINE = 99
+"""Characters of what a result prints of itself."""
+
+
+def one_line(text: str) -> str:
+    """A printable line of less than 100 characters, cut where it is longer."""
+    line = printable(text)
+    return line if len(line) <= MOST_IN_LINE else f"{line[: MOST_IN_LINE - 4]}...{line[-1]}"
+
+
+def shortened_text(text: str, most: int = 32) -> str:
+    """A name, cut where a line has no room for more."""
+    return text if len(text) <= most else f"{text[: most - 3]}..."
 
 
 def quoted(value: object) -> str:

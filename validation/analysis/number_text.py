@@ -16,7 +16,9 @@ DURATIONS = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3))
 
 
 def plus_minus(value: float, half_width: float) -> str:
-    """A value with its interval, to the second digit of that: 12640 ± 110."""
+    """A value with its interval, to the second digit of that: 12640 ± 110; of no finite interval "± unknown"."""
+    if math.isinf(half_width):
+        return f"{short(value)} {half_width_text(half_width)}"
     if not half_width > 0:
         return f"{value:.5g}"
     place = 1 - math.floor(math.log10(half_width))

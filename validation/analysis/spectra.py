@@ -419,6 +419,15 @@ def _in_mm(wavelength: float) -> str:
     return f"{wavelength * 1000:g} mm"
 
 
+def assessed_bands(level: FloatArray, above: float) -> NDArray[np.bool_]:
+    """Mask of the bands before the first whose level is not above a limit, from the longest waves on [dB].
+
+    Behind it a filter has zeros and rises again, and what is there comes of waves of other bands. NaN is no level: its
+    band is not assessed, and those behind it may be.
+    """
+    return np.asarray(np.logical_and.accumulate(~(level <= above)) & ~np.isnan(level))
+
+
 def a_weighting(frequency: ArrayLike) -> FloatArray:
     """A(f) [dB] of IEC 61672-1: 20 lg of the product of its four corner frequencies' factors, 0 at 1 kHz."""
     square = np.asarray(frequency, dtype=np.float64) ** 2

@@ -117,6 +117,12 @@ class KnownContact(ContactProblem):
     area: float
     limits: FloatArray
 
+    def __repr__(self) -> str:
+        kind = "periodic" if self.periodic else "free"
+        return (
+            f"KnownContact({self.name!r}, {' x '.join(map(str, self.gap.shape))} cells, {kind}, F = {self.force:.4g} N)"
+        )
+
 
 def problems() -> tuple[KnownContact, ...]:
     """Discrete contact problems with their answers, by which a solver is judged.

@@ -17,12 +17,17 @@ from validation.benchmarks.discrete import ContactProblem
 from validation.engine.street import objects_of_houses
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import all_models
+from validation.simulation.pressed import cell_applications
 
 Field = NDArray[np.float64]
 
 
 ColdSolve = Callable[[], tuple[Field, float]]
 """Pressure [Pa], and operator applications (NaN where the solver does not count them)."""
+OURS = "mdr-validation"
+OUR_SOLVER, PUBLISHED = "bem3d", "bem3d, Polonsky-Keer"
+THREADED = ("omp", "tbb")
+"""Backends of tamaas that have threads; that of its wheel, cpp, has none."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +38,8 @@ class PeerSolver:
     function that solves from a cold start; tolerances: its own, tried in this order, as parts of the residual asked
     for, until the residual is reached: rounding may leave a little more than was asked; serves: "free", "periodic"
     half-spaces; by_force: what it is given, else the approach; file: of somebody's own, which has no package; alone:
-    its name with one thread; cells: the most of a grid that it serves.
+    its name with one thread; cells: the most of a grid that it serves; backend: of its compiled loops, empty where it
+    does not report one.
     """
 
     name: str
@@ -46,6 +52,7 @@ class PeerSolver:
     file: str = ""
     alone: str = ""
     cells: float = math.inf
+    backend: Callable[[], str] = str
 
     @property
     def version(self) -> str | None:
@@ -56,6 +63,17 @@ class PeerSolver:
             return importlib.metadata.version(self.package)
         except importlib.metadata.PackageNotFoundError:
             return None
+
+    @property
+    def build(self) -> str | None:
+        """Its version with the backend, None where it is not installed."""
+        backend = self.backend() if self.version else ""
+        return f"{self.version}, backend {backend}" if backend else self.version
+
+    @property
+    def shares_work(self) -> bool:
+        """Whether it has threads: ours has, others where their backend has."""
+        return self.name == OUR_SOLVER or bool(self.version and self.backend() in THREADED)
 
 
 def sides(problem: ContactProblem) -> list[float]:
@@ -87,9 +105,17 @@ def _force_controlled_solve(
 
     def solve() -> tuple[Field, float]:
         contact = solver(half_space, problem.gap, force=problem.force, tolerance=tolerance)
-        return contact.pressure, contact.operator_applications
+        # those of coarser grids count by their cells
+        return contact.pressure, cell_applications(contact, None) / contact.pressure.size
 
     return solve
+
+
+def tamaas_backend() -> str:
+    """Return the backend of its compiled loops, as cpp or omp."""
+    import tamaas as tm
+
+    return str(tm.TamaasInfo.backend)
 
 
 def tamaas(problem: ContactProblem, tolerance: float, threads: int = 1) -> ColdSolve:
@@ -202,17 +228,22 @@ def contact_mechanics(problem: ContactProblem, tolerance: float) -> ColdSolve:
     return solve
 
 
-OURS = "mdr-validation"
-OUR_SOLVER, PUBLISHED = "bem3d", "bem3d, Polonsky-Keer"
 TIGHTER = (3.0, 1.0, 0.3, 0.1, 0.03, 0.01)
 SOLVERS = (
     PeerSolver(OUR_SOLVER, OURS, "solve, by force", bem3d_fast),
     PeerSolver(PUBLISHED, OURS, "solve_polonsky_keer, by force", bem3d_plain),
-    PeerSolver("tamaas", "tamaas", "PolonskyKeerRey, by mean pressure; free space: dcfft", tamaas, TIGHTER),
+    PeerSolver(
+        "tamaas",
+        "tamaas",
+        "PolonskyKeerRey, by mean pressure; free space: dcfft",
+        tamaas,
+        TIGHTER,
+        backend=tamaas_backend,
+    ),
     PeerSolver(
         "ContactMechanics",
         "ContactMechanics",
-        "ccg-without-restart on the dual, by approach; stiffness_q0 = 0",
+        "ccg-without-restart on the dual, by approach, the fastest of its three; stiffness_q0 = 0",
         contact_mechanics,
         TIGHTER,
         by_force=False,
@@ -222,7 +253,7 @@ SOLVERS = (
 
 def with_threads(threads: int) -> tuple[PeerSolver, ...]:
     """Those that share their work out among threads, of so many; none for one thread."""
-    sharing = [solver for solver in SOLVERS if solver.name in (OUR_SOLVER, "tamaas")] if threads > 1 else []
+    sharing = [solver for solver in SOLVERS if solver.shares_work] if threads > 1 else []
     return tuple(_solver_on_threads(solver, threads) for solver in sharing)
 
 
@@ -231,11 +262,6 @@ def _solver_on_threads(solver: PeerSolver, threads: int) -> PeerSolver:
     prepare: Callable[..., ColdSolve] = solver.prepare
     name = f"{solver.name}, {threads} threads"
     return replace(solver, name=name, prepare=partial(prepare, threads=threads), alone=solver.name)
-
-
-def is_ours(name: str) -> bool:
-    """Whether a solver is `bem3d.solve`, with any number of threads."""
-    return name == OUR_SOLVER or (name.startswith(f"{OUR_SOLVER}, ") and name.endswith(" threads"))
 
 
 def solvers_with(file: str) -> tuple[PeerSolver, ...]:

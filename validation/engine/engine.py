@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError, as_completed
 from contextlib import closing, contextmanager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -99,10 +99,10 @@ class Engine:
         """solve(problem) for each problem, in their order, whatever the number of workers.
 
         solve: a module's own function; where part of it has not converged, its outcome says so by a number "failed";
-        problems: frozen dataclasses of plain values, which their repr identifies.
+        problems: frozen dataclasses of plain values, which `identity` has in full.
         """
         keys = [
-            f"{solve.__module__}.{solve.__qualname__}({problem!r}) {version_behind(solve.__module__, problem)}"
+            f"{solve.__module__}.{solve.__qualname__}({identity(problem)}) {version_behind(solve.__module__, problem)}"
             for problem in problems
         ]
         name = solve.__module__, solve.__name__
@@ -174,6 +174,28 @@ def _results_of_workers(workers: Workers, tasks: Sequence["_PendingSolve[P]"]) -
     finally:
         for future in futures:
             future.cancel()
+
+
+def identity(value: object) -> str:
+    """All digits of all that determines a problem, whatever its `repr` shows: of a dataclass each field.
+
+    A field of ``repr=False`` is left out, and one whose metadata have "later" where it is None, so that keys of what is
+    stored stay when it is added.
+    """
+    if is_dataclass(value) and not isinstance(value, type):
+        cells = [(each, getattr(value, each.name)) for each in fields(value) if each.repr]
+        kept = [(each.name, cell) for each, cell in cells if cell is not None or "later" not in each.metadata]
+        return f"{type(value).__qualname__}({', '.join(f'{name}={identity(cell)}' for name, cell in kept)})"
+    if isinstance(value, tuple) and (names := getattr(value, "_fields", ())):
+        named = (f"{name}={identity(cell)}" for name, cell in zip(names, value, strict=True))
+        return f"{type(value).__name__}({', '.join(named)})"
+    if type(value) is tuple:
+        return f"({', '.join(map(identity, value))}{',' * (len(value) == 1)})"
+    if type(value) is list:
+        return f"[{', '.join(map(identity, value))}]"
+    if type(value) is dict:
+        return "{" + ", ".join(f"{identity(key)}: {identity(cell)}" for key, cell in value.items()) + "}"
+    return repr(value)
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,15 @@ from dataclasses import replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from matplotlib.axes import Axes
+
 from validation.advice.tolerance import decibels
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Table, table_of, where_text
 from validation.analysis.series import ENDS
 from validation.judging.judgement import LEVEL, Conditions, JudgedSeries, series_of
 from validation.judging.kinds.own import MAIN
-from validation.report.drawing import picture_of
+from validation.report.drawing import drawn_on, picture_of
 from validation.report.style import FORMATS, in_two_lines
 
 if TYPE_CHECKING:
@@ -44,6 +46,13 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
     of_package = {cost.model for judgement in judgements for cost in judgement.costs[1:]}
     users = {*map(str, table.columns["model"])} - of_package
     return picture_of(replace(chart, title=title), (table,), form, users=users)
+
+
+def plot(judgement: "Judgement", ax: Axes | None = None) -> Axes:
+    """The first panel of `figure_of` on axes of a user, or on those of a new figure."""
+    chart, table = chart_of([judgement])
+    of_package = {cost.model for cost in judgement.costs[1:]}
+    return drawn_on(ax, chart.panels[0], table, {*map(str, table.columns["model"])} - of_package)
 
 
 def chart_of(judgements: Sequence["Judgement"]) -> tuple[Chart, Table]:

@@ -7,18 +7,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from validation.advice.tolerance import Tolerance, tolerance_of
-from validation.analysis.contents import as_csv, as_json, condition_key, conditions_in_json, finite_or_none
-from validation.analysis.escapes import printable
-from validation.analysis.evidence import Verdict, table_of
+from validation.analysis.contents import as_csv, as_html, as_json, condition_key, finite_or_none
+from validation.analysis.escapes import one_line, printable, shortened_text
+from validation.analysis.evidence import Verdict, table_of, where_text
+from validation.analysis.number_text import interval_text
 from validation.judging.judgement import (
     WITHOUT_NUMBER,
     Conditions,
     JudgedNumber,
     JudgedRange,
     SolverTime,
+    counts_of,
     missing_number,
     ranges_of,
     trusted_numbers,
@@ -30,6 +32,9 @@ from validation.judging.kinds.own import ErrorOfCall, costs_of
 from validation.judging.replies import raised
 from validation.judging.worker import Called, visited
 from validation.report.folder import JUDGEMENT, Folder
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 OF_SOLVER = "validation.judging.solvers.checks:judged"
 """Of a contact solver; it imports all solvers."""
@@ -80,6 +85,25 @@ class Judgement:
     times: tuple[SolverTime, ...] = ()
     costs: tuple[ErrorOfCall, ...] = ()
 
+    def __repr__(self) -> str:
+        return one_line(f"Judgement({shortened_text(self.model)!r}, {self.tolerance}: {self._counts})")
+
+    def _repr_html_(self) -> str:
+        """The counts of verdicts, and a row a range, for a notebook."""
+        parts = self.ranges
+        columns: dict[str, Sequence[object]] = {
+            "quantity": [part.quantity for part in parts],
+            "conditions": [where_text(part.where) for part in parts],
+            "range": [f"{part.along} = {interval_text(part.start, part.stop)}" if part.along else "" for part in parts],
+            "verdict": [part.verdict for part in parts],
+        }
+        return as_html(f"{self.model}, tolerance {self.tolerance}: {self._counts}", columns)
+
+    @property
+    def _counts(self) -> str:
+        """How many numbers have each verdict."""
+        return ", ".join(f"{count} {verdict}" for verdict, count in counts_of(self.numbers).items()) or "no numbers"
+
     @property
     def ranges(self) -> list[JudgedRange]:
         """Ranges of equal verdict, each along the condition that has most values."""
@@ -113,6 +137,57 @@ class Judgement:
         lost = (Verdict.OUTSIDE, *WITHOUT_NUMBER)
         return any(number.decides and number.verdict in lost for number in self.numbers)
 
+    def table(self) -> list[dict[str, object]]:
+        """The numbers as rows: a flat dict each.
+
+        Returns
+        -------
+        list of dict
+            Keys model, kind, quantity; the conditions, by their names in CSV, as normalised_load; value, reference,
+            difference, error (half-width of 95 %), error_grid (its part by discretisation), tolerance, and the unit of
+            these four; outcome, reason. NaN where there is no number.
+
+        Examples
+        --------
+        >>> @validation.stiffness_model("flat punch")
+        ... def flat(side, modulus):
+        ...     return 1.1523 * modulus * side
+        >>> row = validation.judge(flat).table()[0]
+        >>> row["model"], row["quantity"], row["outcome"]
+        ('flat punch', 'mean stiffness', 'outside tolerance')
+        """
+        front = {"model": self.model, "kind": self.kind}
+        columns = (*VALUES, "tolerance", "outcome", "reason")
+        return [
+            front
+            | {"quantity": str(number.quantity), **number.conditions}
+            | {name: getattr(number, name) for name in columns}
+            | {"error_grid": number.grid}
+            for number in self.numbers
+        ]
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Draw the deviations of the first quantity with their intervals and the tolerance; of a solver its seconds.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Axes to draw on, by default those of a new figure.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes. `save` draws all quantities.
+
+        Raises
+        ------
+        TypeError
+            If ``ax`` is no Axes.
+        """
+        from validation.judging.figure import plot  # which takes half a second to import
+
+        return plot(self, ax)
+
     def summary(self) -> str:
         """Ranges of equal verdict, the largest deviations and their common condition, and a paragraph for a paper."""
         if self.kind == "contact_solver":
@@ -124,14 +199,16 @@ class Judgement:
     def as_dict(self) -> dict[str, object]:
         """The contents of judgement.json, schema 2, where a number that is not finite is None.
 
-        Rows under "verdicts" have `outcome`, and `conditions` with snake_case names; for one release also `verdict` and
-        `where` as in schema 1. Ranges are under "ranges", and for one release as in schema 1 under "enough".
+        Rows under "numbers" and "ranges" have the names of `JudgedNumber` and `JudgedRange`, `conditions` those of
+        CSV. For one release there are also "verdicts", with `verdict` and `where` as in schema 1, and "enough", and a
+        range has `from` and `to`.
         """
         return {
             "schema_version": SCHEMA,
             "model": self.model,
             "kind": self.kind,
             "tolerance": self.tolerance.relative,
+            "numbers": [_in_json(row_of_number(number)) for number in self.numbers],
             "verdicts": [_in_json(_row(number)) for number in self.numbers],
             "ranges": [_in_json(_range_row(part)) for part in self.ranges],
             "enough": [_in_json(_range_row(part, schema=1)) for part in self.ranges],
@@ -173,7 +250,7 @@ class Judgement:
         return files
 
 
-def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
+def judge(model: object, tolerance: float | str = 0.1, *, only: str | None = None) -> Judgement:
     """Judge a model: where it is accurate enough, with error bars, by references that come with this package.
 
     Parameters
@@ -183,6 +260,8 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
         program, in a process of its own.
     tolerance : float or str, optional
         A ratio, or "10 %" or "1 dB". Levels are judged by 20 lg(1 + ratio) dB.
+    only : str, optional
+        Name of the model of a file that offers several.
 
     Returns
     -------
@@ -192,8 +271,8 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
     Raises
     ------
     TypeError, ValueError, OSError
-        For a function without a decorator, a file that cannot be read or offers more than one model, a tolerance that
-        is none.
+        For a function without a decorator, a file that cannot be read, offers more than one model or none of the name
+        ``only``, a tolerance that is none.
 
     Examples
     --------
@@ -205,10 +284,19 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
     ['within tolerance']
     """
     with visited(model) as callers:
-        if len(callers) > 1:
-            names = ", ".join(repr(caller.name) for caller in callers)
-            raise ValueError(f"model must be one, got {names}: judge them apart")
-        return judged(callers[0], tolerance_of(tolerance))
+        chosen = callers_named(callers, only, option="only")
+        if len(chosen) > 1:
+            names = ", ".join(repr(caller.name) for caller in chosen)
+            raise ValueError(f"model must be one, got {names}: choose by only={chosen[0].name!r}, or judge them apart")
+        return judged(chosen[0], tolerance_of(tolerance))
+
+
+def callers_named(callers: Sequence[Called], name: str | None, *, option: str) -> list[Called]:
+    """Those of a name, or all for None. Raises ValueError where none has it. option: by which it is chosen."""
+    chosen = [caller for caller in callers if name in (None, caller.name)]
+    if not chosen:
+        raise ValueError(f"{option} must be one of {', '.join(caller.name for caller in callers)}, got {name}")
+    return chosen
 
 
 def judged(model: Called, tolerance: Tolerance) -> Judgement:
@@ -261,12 +349,17 @@ def _row(number: JudgedNumber) -> dict[str, Any]:
     return {
         "quantity": number.quantity,
         "where": dict(number.where),
-        "conditions": conditions_in_json(number.where),
+        "conditions": number.conditions,
         **{name: getattr(number, name) for name in VALUES},
         "verdict": number.verdict.earlier,
-        "outcome": str(number.verdict),
+        "outcome": number.outcome,
         "reason": number.reason,
     }
+
+
+def row_of_number(number: JudgedNumber) -> dict[str, Any]:
+    """Of JSON, by the names that a `JudgedNumber` has."""
+    return {name: getattr(number, name) for name in ("quantity", "conditions", *CSV_COLUMNS, "tolerance", "decides")}
 
 
 def _range_row(part: JudgedRange, *, schema: int = SCHEMA) -> dict[str, Any]:
@@ -274,9 +367,10 @@ def _range_row(part: JudgedRange, *, schema: int = SCHEMA) -> dict[str, Any]:
     if schema == 1:
         where, verdict = {"where": dict(part.where), "along": part.along}, {"verdict": part.verdict.earlier}
     else:
-        where = {"conditions": conditions_in_json(part.where), "along": condition_key(part.along)}
-        verdict = {"outcome": str(part.verdict)}
-    return {"quantity": part.quantity, **where, "from": part.start, "to": part.stop, **verdict}
+        where = {"conditions": part.conditions, "along": condition_key(part.along)}
+        verdict = {"outcome": part.outcome}
+    ends = {"start": part.start, "stop": part.stop} if schema > 1 else {}
+    return {"quantity": part.quantity, **where, **ends, "from": part.start, "to": part.stop, **verdict}
 
 
 def _in_json(row: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,8 +8,10 @@ from operator import attrgetter
 from typing import NamedTuple, TypeVar
 
 from validation.advice.tolerance import decibels
+from validation.analysis.contents import conditions_in_json
+from validation.analysis.escapes import one_line
 from validation.analysis.evidence import Number, Role, Verdict, verdict_of, where_text
-from validation.analysis.number_text import deviation_text
+from validation.analysis.number_text import deviation_text, interval_text
 from validation.analysis.ranges import VerdictRange, verdict_ranges
 
 RATIO, LEVEL, DEVIATION = "-", "dB", "over the mean"
@@ -79,6 +81,20 @@ class JudgedNumber:
     decides: bool = False
     tolerance: float = math.nan
     grid: float = 0.0
+
+    def __repr__(self) -> str:
+        where = f" at {where_text(self.where)}" if self.where else ""
+        return one_line(f"JudgedNumber({str(self.quantity)!r}{where}: {self.shown}, {self.verdict})")
+
+    @property
+    def conditions(self) -> dict[str, float | str]:
+        """`where` by the names of JSON and CSV, as wavelength_mm."""
+        return conditions_in_json(self.where)
+
+    @property
+    def outcome(self) -> str:
+        """The verdict as a text, as JSON and CSV have it."""
+        return str(self.verdict)
 
     @property
     def shown(self) -> str:
@@ -199,6 +215,21 @@ class JudgedRange:
     start: float
     stop: float
     verdict: Verdict
+
+    def __repr__(self) -> str:
+        along = f"{self.along} = {interval_text(self.start, self.stop)}" if self.along else "all"
+        where = f" at {where_text(self.where)}" if self.where else ""
+        return one_line(f"JudgedRange({str(self.quantity)!r}{where}, {along}: {self.verdict})")
+
+    @property
+    def conditions(self) -> dict[str, float | str]:
+        """`where` by the names of JSON and CSV."""
+        return conditions_in_json(self.where)
+
+    @property
+    def outcome(self) -> str:
+        """The verdict as a text."""
+        return str(self.verdict)
 
 
 @dataclass(frozen=True)

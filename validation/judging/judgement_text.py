@@ -56,7 +56,7 @@ class Line(StrEnum):
     strip: a sign a number; outcome: ranges of each verdict; warning: of the model, or that it has given none.
     """
 
-    RESULT = "{0.model}: {kind}, tolerance {0.tolerance}, {count} points in {0.seconds:.1f} s: {counts}"
+    RESULT = "{0.model}: {counts} ({count} points, tolerance {0.tolerance}); {kind}, {0.seconds:.1f} s"
     QUANTITY = "\n{quantity}{along}{note}"
     STRIP = "  {conditions:32s} {strip}  {outcome}"
     LARGEST = "  {0.quantity}, {conditions}: {0.shown}"
@@ -102,7 +102,9 @@ def summary_lines(judgement: "Judgement") -> Iterator[str]:
     for remark in judgement.remarks:
         yield from textwrap.wrap(remark.sentence, LINE, initial_indent="! ", subsequent_indent="  ")
     yield f"strips: {', '.join(f'{verdict.sign} {verdict}' for verdict in Verdict)}"
-    for series in quantities:
+    passed = [part for series in quantities for part in series if _is_passed(part)]
+    shown = [[part for part in series if part not in passed] for series in quantities]
+    for series in filter(None, shown):
         along = f", along {series[0].along}" if series[0].along and len(series[0].numbers) > 1 else ""
         note = f" ({note})" if (note := NOTES.get(series[0].quantity)) else ""
         yield Line.QUANTITY.format(quantity=series[0].quantity, along=along, note=note)
@@ -110,7 +112,7 @@ def summary_lines(judgement: "Judgement") -> Iterator[str]:
         if len(series) > STRIPS:
             yield f"  and {len(series) - STRIPS} more, which --csv writes"
     yield from _largest_lines(numbers)
-    yield from closed_form_lines([part for series in quantities for part in series if part.is_closed_form])
+    yield from law_lines([part for series in quantities for part in series if part.is_closed_form])
     if judgement.costs:
         yield f"\nMedian error of the {MAIN[judgement.kind]}, and seconds of the call that took longest:"
     for cost in judgement.costs:
@@ -153,22 +155,34 @@ def _of_scenes(numbers: Sequence[JudgedNumber]) -> list[JudgedNumber]:
     return [number for number in numbers if number.quantity not in SWEPT]
 
 
-def closed_form_lines(closed_forms: Sequence[JudgedSeries]) -> Iterator[str]:
-    """Closed forms and asymptotic limits that the model does not follow, and whether it has warned of that.
+def law_lines(closed_forms: Sequence[JudgedSeries]) -> Iterator[str]:
+    """How many invariance tests and asymptotic limits are passed; the others, and whether the model has warned.
 
-    Where it follows all, the limits beyond the scenes of its judge.
+    A series is a test: of one quantity, under one set of conditions.
     """
-    ranges = [(series, part) for series in closed_forms for part in series.verdict_ranges]
-    broken = [pair for pair in ranges if pair[1].verdict not in (Verdict.WITHIN, Verdict.INCONCLUSIVE)]
     limits = [series for series in closed_forms if series.quantity in SWEPT]
+    kinds = {"invariance tests": [series for series in closed_forms if series not in limits]}
+    kinds["asymptotic limits"] = limits
+    yield from [""] if closed_forms else ()
+    for kind, tests in kinds.items():
+        passed = sum(map(_is_passed, tests))
+        open_tests = [series for series in tests if not _is_passed(series) and not any(_broken_parts(series))]
+        rest = f"; inconclusive: {', '.join(dict.fromkeys(series.quantity for series in open_tests))}"
+        yield from [f"{kind}: {passed} of {len(tests)} passed{rest if open_tests else ''}"] if tests else ()
+    broken = [(series, part) for series in closed_forms for part in _broken_parts(series)]
     if broken:
-        yield "\nWhere it breaks:"
+        yield "\nTests not passed:"
         yield from starmap(_broken_line, broken)
-    elif limits:
-        yield "\nBeyond these scenes:"
-        for series in limits:
-            is_within = all(number.verdict is Verdict.WITHIN for number in series.numbers)
-            yield f"  {series.quantity}: {Verdict.WITHIN if is_within else Verdict.INCONCLUSIVE}"
+
+
+def _is_passed(series: JudgedSeries) -> bool:
+    """Whether it is a closed form, or a limit, and all of its numbers are within tolerance."""
+    return series.is_closed_form and all(number.verdict is Verdict.WITHIN for number in series.numbers)
+
+
+def _broken_parts(series: JudgedSeries) -> list[VerdictRange]:
+    """The ranges of a closed form that are neither within tolerance nor inconclusive."""
+    return [part for part in series.verdict_ranges if part.verdict not in (Verdict.WITHIN, Verdict.INCONCLUSIVE)]
 
 
 def _broken_line(series: JudgedSeries, part: VerdictRange) -> str:
@@ -356,7 +370,7 @@ def problem_lines(checks: Sequence[JudgedNumber]) -> Iterator[str]:
     properties = (number for number in checks if number.quantity not in NO_ROW)
     for name, numbers in groups_of(properties, lambda number: number.quantity).items():
         is_within = all(number.verdict is Verdict.WITHIN for number in numbers)
-        yield f"  {name:38s}{'holds' if is_within else 'does not hold':>16s}"
+        yield f"  {name:38s}{'passed' if is_within else 'not passed':>16s}"
 
 
 def _deviation_cell(number: JudgedNumber | None) -> str:

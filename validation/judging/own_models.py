@@ -8,7 +8,7 @@ import time
 import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cache, partial
 from itertools import pairwise
 from pathlib import Path
@@ -280,7 +280,7 @@ def result_of(caller: Caller, target: Target, count: int) -> Result:
 
 
 @cache
-def named_in(place: str, kind: str) -> Offered:
+def named_in(place: str, kind: str) -> Offered[..., Any]:
     """With or without its decorator; the file is run once, and its folder can be imported.
 
     Raises ValueError where there is none, or where the file raises, in one sentence.
@@ -302,7 +302,7 @@ def named_in(place: str, kind: str) -> Offered:
 
 
 @cache
-def _solvers_in(file: str) -> list[Offered]:
+def _solvers_in(file: str) -> list[Offered[..., Any]]:
     solvers = [offered for offered in offered_in(Path(file)) if offered.kind == "contact_solver"]
     if not solvers:
         raise OthersError(f"{Path(file).name}: no function has the decorator @contact_solver")
@@ -317,7 +317,7 @@ def solvers_in(file: str, taken: Collection[str]) -> list[PeerSolver]:
     ]
 
 
-def _own(offered: Offered, file: str, name: str) -> PeerSolver:
+def _own(offered: Offered[..., Any], file: str, name: str) -> PeerSolver:
     served, by_force = tuple(kind for kind in ("free", "periodic") if offered.options[kind]), "force" in offered.asks
     mode, prepare = "by force" if by_force else "by approach", partial(of_file, file, offered.name)
     cells = float(offered.options["cells"])
@@ -340,7 +340,7 @@ def of_file(file: str, name: str, problem: ContactProblem, tolerance: float) -> 
 
 
 @cache
-def _loaded(file: str) -> tuple[Offered, ...]:
+def _loaded(file: str) -> tuple[Offered[..., Any], ...]:
     sys.path.insert(0, str(Path(file).resolve().parent))
     return tuple(value for value in runpy.run_path(file).values() if isinstance(value, Offered))
 
@@ -392,7 +392,7 @@ class OwnModel:
     digest: str
     path: Path | None = field(default=None, repr=False)
     sources: tuple[Path, ...] = field(default=(), repr=False)
-    function: Offered | None = field(default=None, repr=False)
+    function: Offered[..., Any] | None = field(default=None, repr=False)
     errors: Mapping[Group, OwnErrors] = field(default_factory=dict, compare=False)
 
     @property
@@ -419,7 +419,8 @@ class OwnModel:
         """Of the house."""
         of = SERVED[self.kind]
         about = {"name": self.name, "setting": f"@{self.kind}", "serves": of.serves, "charted": False}
-        return model(cost=self._cost, claim=self._claim, **about)(self._solve)
+        declared = model(cost=self._cost, claim=self._claim, **about)(self._solve)
+        return ModelOfUser(**{each.name: getattr(declared, each.name) for each in fields(declared)}, own=self)
 
     def _solve(self, target: Target, resolution: Resolution) -> Result:
         result = result_of(self.called(), target, self._sample(target)[0])
@@ -465,6 +466,16 @@ class OwnModel:
         return f"it answers fewer than {FEWEST_SCENES} scenes of the calibration: its error is unknown"
 
 
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class ModelOfUser(Model):
+    """Of a function that no module of the package declares. own: what makes it, also where it is unpickled."""
+
+    own: OwnModel
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return OwnModel.model, (self.own,)
+
+
 def group_of(scene: Scene, quantity: str) -> Group:
     """Which answers a model of it is measured beside; of rails there are none."""
     return kind_of(Target(scene, quantity)), quantity
@@ -501,7 +512,7 @@ def _probe(called: Called) -> None:
                 result_of(called, target, 1)
 
 
-def of_functions(functions: Iterable[Offered], scene: Scene, quantity: str) -> tuple[OwnModel, ...]:
+def of_functions(functions: Iterable[Offered[..., Any]], scene: Scene, quantity: str) -> tuple[OwnModel, ...]:
     """Functions of this process, those of files calibrated. Raises TypeError for a kind that has no scenes."""
     models = []
     for function in functions:
@@ -512,7 +523,7 @@ def of_functions(functions: Iterable[Offered], scene: Scene, quantity: str) -> t
     return tuple(models)
 
 
-def _digest_of_file(offered: Offered) -> str:
+def _digest_of_file(offered: Offered[..., Any]) -> str:
     """Of that which defines a function, and of what is loaded from its folder; empty where there is none."""
     path = Path(getattr(getattr(offered.function, "__code__", None), "co_filename", ""))
     return digest_of(sources_of(path)) if path.is_file() else ""

@@ -3,16 +3,22 @@
 import functools
 import inspect
 import math
+import pickle
 import sys
+import types
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Generic, NamedTuple, ParamSpec, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.analysis.escapes import one_line
+
 FloatArray = NDArray[np.float64]
+P = ParamSpec("P")
+R = TypeVar("R")
 Given = Mapping[str, Any]
 Shape = tuple[int, ...]
 LOOSEST = 1e-3
@@ -119,6 +125,17 @@ KINDS: Mapping[str, OfferedKind] = {
         needs=("q", "roughness"),
         shapes=_as("q"),
     ),
+    "interface_model": OfferedKind(
+        ("pressure", "modulus", "roughness", "quantity"),
+        'a number of a rough interface without edges under a mean pressure [Pa]: by quantity, "area_fraction", the '
+        'true contact area over the nominal area; "mean_gap" [m], the distance of the mean planes; or '
+        '"stiffness", -dp/du [Pa/m]. NotImplementedError where it has none',
+        "def linear(pressure, roughness, quantity):\n"
+        "    if quantity != 'stiffness':\n"
+        "        raise NotImplementedError('a stiffness alone')\n"
+        "    return pressure / (0.48 * roughness.rms)",
+        needs=("pressure", "quantity"),
+    ),
     "contact_law": OfferedKind(
         ("approach", "position"),
         "force [N] of a wheel with a mass",
@@ -140,17 +157,82 @@ KINDS: Mapping[str, OfferedKind] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Offered:
-    """A function that is offered under a name; it is called as before."""
+class Offered(Generic[P, R]):
+    """A function that is offered under a name. It is called as before; its signature and docstring are its own.
+
+    It is pickled by its place in its module, as a function is. One without a place, or of a script or notebook, needs
+    `cloudpickle` to reach a process that does not have it.
+    """
 
     kind: str
     name: str
-    function: Callable[..., Any] = field(repr=False)
+    function: Callable[P, R] = field(repr=False)
     asks: tuple[str, ...]
     options: Given
 
-    def __call__(self, *arguments: Any, **named: Any) -> Any:
+    def __post_init__(self) -> None:
+        wrapper: Any = types.SimpleNamespace()
+        functools.update_wrapper(wrapper, self.function)
+        own = {"__doc__": f"@{self.kind}({self.name!r}), a function without a docstring."}
+        vars(self).update({**own, **{name: value for name, value in vars(wrapper).items() if value}, **vars(self)})
+
+    def __repr__(self) -> str:
+        name = getattr(self, "__name__", "function")
+        return one_line(f"<@{self.kind}({self.name!r}) {name}({', '.join(self.asks)})>")
+
+    def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
         return self.function(*arguments, **named)
+
+    def __copy__(self) -> "Offered[P, R]":
+        """Itself, as of a function."""
+        return self
+
+    def __deepcopy__(self, memo: object) -> "Offered[P, R]":
+        return self
+
+    def __reduce__(self) -> str | tuple[Any, ...]:
+        module, place = (str(getattr(self, name, "")) for name in ("__module__", "__qualname__"))
+        is_placed = _placed(module, place) is self
+        if is_placed and module != "__main__":
+            return place
+        contents = _by_value(self.function)
+        if contents is None and not is_placed:
+            raise pickle.PicklingError(
+                f"{self.name!r} must stand at the top of a module to be pickled, got {place or 'a function'}: or "
+                "install cloudpickle"
+            )
+        return _restored, (module, place, self.kind, self.name, dict(self.options), contents)
+
+
+def _placed(module: str, place: str) -> object:
+    """What a module that is imported has at a place; None where it has nothing."""
+    found: object = sys.modules.get(module)
+    for name in place.split("."):
+        found = getattr(found, name, None)
+    return found
+
+
+def _by_value(function: Callable[..., Any]) -> bytes | None:
+    """A function with its code; None without `cloudpickle`, and where it holds what cannot be pickled."""
+    try:
+        from cloudpickle import dumps
+
+        contents: bytes = dumps(function)
+    except (ImportError, pickle.PicklingError, TypeError, RecursionError):
+        return None
+    return contents
+
+
+def _restored(
+    module: str, place: str, kind: str, name: str, options: Given, contents: bytes | None
+) -> "Offered[..., Any]":
+    """The function of a script where this process has run it, else as it was pickled."""
+    found = _placed(module, place)
+    if isinstance(found, Offered) and (found.kind, found.name) == (kind, name):
+        return found
+    if contents is None:
+        raise pickle.UnpicklingError(f"{name!r} is not in module {module!r} of this process: install cloudpickle")
+    return offer(kind, name, options, pickle.loads(contents))
 
 
 class Caller(Protocol):
@@ -161,7 +243,7 @@ class Caller(Protocol):
     function warned of in the last ones.
     """
 
-    offered: Offered
+    offered: Offered[..., Any]
 
     @property
     def kind(self) -> str:
@@ -188,8 +270,27 @@ class Caller(Protocol):
         return self.calls("", [None], arguments)[0]
 
 
-Decorator = Callable[[Callable[..., Any]], Offered]
-DECORATED: list[tuple[Given, Offered]] = []
+class Decorator(Protocol):
+    """What stands above a function, whose types stay."""
+
+    def __call__(self, function: Callable[P, R], /) -> Offered[P, R]: ...
+
+
+class Named(Protocol):
+    """A decorator with the name of a model."""
+
+    def __call__(self, name: str, /) -> Decorator: ...
+
+
+class NamedSolver(Protocol):
+    """A decorator with the name of a solver, and what that serves."""
+
+    def __call__(
+        self, name: str, /, *, free: bool = ..., periodic: bool = ..., residual: float = ..., cells: float = ...
+    ) -> Decorator: ...
+
+
+DECORATED: list[tuple[Given, Offered[..., Any]]] = []
 """All functions of this process, each with the names of the module that decorated it."""
 
 
@@ -218,7 +319,7 @@ def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
     return tuple(parameters)
 
 
-def offer(kind: str, name: str, options: Given, function: Callable[..., Any]) -> Offered:
+def offer(kind: str, name: str, options: Given, function: Callable[P, R]) -> Offered[P, R]:
     """The function under its name. Raises OfferedError in one sentence that begins with the name."""
     try:
         return Offered(kind, name, function, _asked(kind, function), dict(options))
@@ -242,9 +343,10 @@ def _decorator(kind: str) -> Callable[..., Decorator]:
                 raise OfferedError(f"option {option} must be as {of.options[option]}, got {value!r}")
         of.check(name, {**of.options, **options})
 
-        def decorated(function: Callable[..., Any]) -> Offered:
-            DECORATED.append((sys._getframe(1).f_globals, offer(kind, name, {**of.options, **options}, function)))
-            return DECORATED[-1][1]
+        def decorated(function: Callable[P, R]) -> Offered[P, R]:
+            offered = offer(kind, name, {**of.options, **options}, function)
+            DECORATED.append((sys._getframe(1).f_globals, offered))
+            return offered
 
         return decorated
 
@@ -300,11 +402,12 @@ def _refused(of: OfferedKind) -> str:
     return unjudged if of.check is _can_be_judged else ""
 
 
-stiffness_model = _decorator("stiffness_model")
-stiffness_of_surface = _decorator("stiffness_of_surface")
-force_spectrum = _decorator("force_spectrum")
-rolling_model = _decorator("rolling_model")
-contact_filter = _decorator("contact_filter")
-profile_spectrum = _decorator("profile_spectrum")
-contact_law = _decorator("contact_law")
-contact_solver = _decorator("contact_solver")
+stiffness_model: Named = _decorator("stiffness_model")
+stiffness_of_surface: Named = _decorator("stiffness_of_surface")
+force_spectrum: Named = _decorator("force_spectrum")
+rolling_model: Named = _decorator("rolling_model")
+contact_filter: Named = _decorator("contact_filter")
+profile_spectrum: Named = _decorator("profile_spectrum")
+interface_model: Named = _decorator("interface_model")
+contact_law: Named = _decorator("contact_law")
+contact_solver: NamedSolver = _decorator("contact_solver")

@@ -248,7 +248,7 @@ class Reply(NamedTuple):
     seconds: float = math.nan
 
 
-def called(offered: Offered, arguments: Mapping[str, Any], file: Path | None = None) -> Reply:
+def called(offered: Offered[..., Any], arguments: Mapping[str, Any], file: Path | None = None) -> Reply:
     """What a function says to these arguments. file: that offers it, where it is known.
 
     A process that the function forks, and that comes back from it, is ended: it must answer nobody.
@@ -273,7 +273,9 @@ def has_forked() -> bool:
     return before != 0
 
 
-def _validated_value(offered: Offered, arguments: Mapping[str, Any], file: Path | None) -> FloatArray | Failed:
+def _validated_value(
+    offered: Offered[..., Any], arguments: Mapping[str, Any], file: Path | None
+) -> FloatArray | Failed:
     """The value, finite and of the right shape, or what is wrong. Arguments are copies, compared afterwards."""
     passed = {name: arguments[name] for name in offered.asks if name in arguments}
     lent, classes = {name: copy_of(value) for name, value in passed.items()}, classes_of(passed)

@@ -37,7 +37,7 @@ class Called(Caller):
     nobody took; replies: to the last calls; longest: arguments of the slowest answer.
     """
 
-    offered: Offered
+    offered: Offered[..., Any]
     visitor: "Visitor | None" = None
     printed: str = field(default="", init=False, repr=False)
     forked: bool = field(default=False, init=False, repr=False)
@@ -80,9 +80,14 @@ class Visitor:
     def __init__(self, path: Path, *, seconds: float = SECONDS):
         if SERVING:
             raise OthersError("a file that is judged must not judge files itself: put that under `if __name__ == ...`")
-        self.path, self.seconds, self._lost = path.absolute(), seconds, list[Offered]()
+        self.path, self.seconds, self._lost = path.absolute(), seconds, list[Offered[..., Any]]()
         self._digests: dict[Path, bytes] = {}
-        self._mark, self._begun, self._asked, self._serves = secrets.token_hex(8), time.time(), 0, list[Offered]()
+        self._mark, self._begun, self._asked, self._serves = (
+            secrets.token_hex(8),
+            time.time(),
+            0,
+            list[Offered[..., Any]](),
+        )
         self.path.read_bytes()
         self.offered = self._start()
 
@@ -111,7 +116,7 @@ class Visitor:
         return next((path.name for path in self.sources if digest_of_bytes(path) != self._digests[path]), "")
 
     def calls(
-        self, offered: Offered, name: str, values: Sequence[Any], arguments: Mapping[str, Any]
+        self, offered: Offered[..., Any], name: str, values: Sequence[Any], arguments: Mapping[str, Any]
     ) -> tuple[list[Reply], str, bool]:
         """What it says for each value of one argument, what was printed, and whether a fork of it came back."""
         passed = {each: arguments[each] for each in offered.asks if each in arguments}
@@ -163,7 +168,7 @@ class Visitor:
             if path not in self._digests:
                 self._digests[path] = digest_of_bytes(path)
 
-    def _serve(self, offered: Offered) -> None:
+    def _serve(self, offered: Offered[..., Any]) -> None:
         """Have a process that has called no other function. Raises OthersError where the file is another one now."""
         if self._process.poll() is None and self._serves in ([], [offered]):
             self._serves = [offered]
@@ -178,7 +183,7 @@ class Visitor:
             raise OthersError(f"{self.path.name} offers other functions than at first")
         self._serves = [offered]
 
-    def _start(self) -> list[Offered]:
+    def _start(self) -> list[Offered[..., Any]]:
         """A process of the file, and what it offers."""
         self._serves = []
         self._channel, theirs = Channel.pair()
@@ -236,7 +241,7 @@ class Visitor:
 SERVE = "validation.judging.worker_main"
 
 
-def _checked(reply: Reply, offered: Offered, arguments: Mapping[str, Any]) -> Reply:
+def _checked(reply: Reply, offered: Offered[..., Any], arguments: Mapping[str, Any]) -> Reply:
     """With numbers that are as they must be, whatever has become of numpy where they come from."""
     if isinstance(reply.value, Failed):
         return reply
@@ -280,7 +285,7 @@ def visited(model: object) -> Iterator[list[Called]]:
         raise TypeError(f"model must be a function with a decorator, as @stiffness_model, or a file, got {model!r}")
 
 
-def offered_in(path: Path) -> list[Offered]:
+def offered_in(path: Path) -> list[Offered[..., Any]]:
     """What a file offers, in its order. Raises OthersError in one sentence, OSError where it cannot be read."""
     with Visitor(path) as visitor:
         return visitor.offered

@@ -177,7 +177,7 @@ def _printed(file: IO[bytes], place: os.stat_result) -> str:
     return text.decode(errors="replace")
 
 
-def loaded(path: Path) -> list[Offered]:
+def loaded(path: Path) -> list[Offered[..., Any]]:
     """Run the file as a program whose folder can be imported; it is imported under its own name where that is free."""
     sys.path.insert(0, str(path.parent))
     name = path.stem if path.stem not in sys.modules else "_judged"

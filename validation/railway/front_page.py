@@ -28,6 +28,7 @@ MOVING = Source(
     case="rail_dynamic",
     quantity=rail_dynamic.RMS + rail_dynamic.BESIDE,
     model=rail_dynamic.SPRINGS_OVER_BEM,
+    where={rail_dynamic.RAIL: rail_dynamic.BEAM},
     axis=filters.OFFSET,
 )
 QUESTIONS = (

@@ -178,6 +178,32 @@ def picture_of(chart: Chart, tables: Iterable[Table], form: str, users: Collecti
     return picture(figure, form)
 
 
+def drawn_on(axis: Axes | None, panel: Panel, table: Table, users: Collection[str] = ()) -> Axes:
+    """One panel on axes of a user, or on those of a new figure of pyplot, with a legend; its texts are no markup.
+
+    Raises TypeError for what is no Axes.
+    """
+    if axis is None:
+        # imported where a figure is asked for: it chooses a backend
+        import matplotlib.pyplot as plt
+
+        axis = plt.subplots(layout="constrained")[1]
+    if not isinstance(axis, Axes):
+        raise TypeError(f"ax must be an Axes of matplotlib, or None for a new figure, got {type(axis).__name__}")
+    evidence = Evidence(title="", method="", numbers=(), tables=(table,), conclusions=(), captions={})
+    curves = _curves_with_table(panel, evidence)
+    styles = styles_of((name for curve in curves for name in _models(_rows_of_curve(evidence, curve, {}))), users)
+    with matplotlib.rc_context(SETTINGS):
+        _panel(axis, panel, {}, evidence, styles)
+        _limits(axis, panel)
+        title = axis.set_title(textwrap.fill(panel.title.replace("\n", ", "), WIDE // 2), loc="left")
+        handles = [] if panel.rows else axis.get_legend_handles_labels()[0]
+        legend = axis.legend(fontsize="small") if handles else None
+        for text in (axis.xaxis.label, axis.yaxis.label, title, *(legend.get_texts() if legend else ())):
+            text.set_parse_math(False)
+    return axis
+
+
 def _share(axes: Sequence[Axes], drawn: Sequence[Panel]) -> None:
     """The same quantity on the same scale has one axis, and so have the panels of a facet; rows have their names."""
     scales = [(panel.y, panel.log, panel.ylim, panel.decades, i * bool(panel.rows)) for i, panel in enumerate(drawn)]

@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
+from statistics import fmean
 from typing import Literal
 
 PROFILES = ("quick", "full")
@@ -21,7 +22,8 @@ def seconds_of(profile: Literal["quick", "full"]) -> Mapping[str, float]:
 def duration_text(profile: Literal["quick", "full"], names: Iterable[str], cores: int = 1) -> str:
     """In two digits: "about 20 seconds", "about 13 minutes"; what is timed takes one core, whatever there is."""
     seconds = seconds_of(profile)
-    total = sum(seconds[name] / (1 if name in TIMED else cores) for name in names)
+    mean = fmean(seconds.values())  # of a case that is not there
+    total = sum(seconds.get(name, mean) / (1 if name in TIMED else cores) for name in names)
     for unit, size in (("hour", 3600), ("minute", 60)):
         if total >= 1.5 * size:
             return f"about {float(f'{total / size:.2g}'):g} {unit}s"

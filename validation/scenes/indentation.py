@@ -10,7 +10,7 @@ from validation.scenes.description import COUNTED, body_pairs, roughness_pairs, 
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured_heights import SQUARE, MeasuredHeights, check_covers
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
-from validation.scenes.scene import PRESSED, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
+from validation.scenes.scene import INTERFACE, PRESSED, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import OnHalfSpace, Wheel
 from validation.theory.closed_forms import square_punch_stiffness
@@ -21,7 +21,7 @@ MOST_PRESSURE, SOFTEST = 0.1, 1e3
 """Of E*, that a half-space bears without large strains; E* [Pa] below which its unit is asked for. 1 is no pressure."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class IndentationScene(OnHalfSpace, SceneDefaults):
     """Rigid sphere or square punch, smooth or rough, pressed onto an elastic half-space.
 
@@ -57,7 +57,6 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
     speed: ClassVar[None] = None
     mass: ClassVar[None] = None
     damping: ClassVar[float] = 0.0
-    quantities: ClassVar[tuple[SceneQuantity, ...]] = PRESSED
     roughness_key: ClassVar[str] = "roughness"
 
     name: str
@@ -77,6 +76,11 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
             self._check_waves(self.ground)
         elif self.ground is not None:
             self._check_measured(self.ground)
+
+    @property
+    def quantities(self) -> tuple[SceneQuantity, ...]:
+        """The stiffness; of a rough punch the contact area and the mean gap as well."""
+        return (*PRESSED, *INTERFACE) if self.shape == "punch" and self.ground is not None else PRESSED
 
     @property
     def kind(self) -> Shape:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from mdr.checks import finite, positive
-from validation.analysis.escapes import quoted
+from validation.analysis.escapes import one_line, quoted
 from validation.scenes.reader import nonblank_text, table, values
 from validation.scenes.units import in_unit
 
@@ -78,6 +78,11 @@ class Material:
         _check_moduli("material", self._body)
         self._check_counterface()
         positive("material: E* of both bodies", self.modulus)
+
+    def __repr__(self) -> str:
+        given = ((name, getattr(self, name)) for name in ("contact_modulus", *ELASTIC_KEYS))
+        cells = (f"{name}={value:.5g}" if isinstance(value, float) else f"{name}={value!r}" for name, value in given)
+        return one_line(f"Material({', '.join(cell for cell in cells if not cell.endswith('=None'))})")
 
     @property
     def modulus(self) -> float:

@@ -3,13 +3,13 @@
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import ClassVar, get_args
+from typing import ClassVar, get_args, overload
 
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from mdr.checks import positive
+from mdr.checks import Numbers, number_or_array, positive
 from validation.analysis.spectra import Detrend
 from validation.analysis.statistics import FloatArray
 from validation.scenes.units import in_unit
@@ -298,6 +298,11 @@ class MeasuredHeights:
         """Ends of the rings of wavenumbers in which the spectrum is known [rad/m]."""
         return self._rings[0]
 
+    def __repr__(self) -> str:
+        points = " x ".join(map(str, self.height.shape))
+        sides = " x ".join(in_unit(side, "length") for side in self.sides)
+        return f"MeasuredHeights({points} points on {sides}, rms={in_unit(self.rms, 'length')})"
+
     @property
     def q_min(self) -> float:
         """Lower end of the first ring [rad/m]."""
@@ -318,12 +323,16 @@ class MeasuredHeights:
         """Wavenumber of waves with four points [rad/m]."""
         return self.q_max / 2
 
-    def c2d(self, q: ArrayLike) -> FloatArray:
+    @overload
+    def c2d(self, q: float) -> float: ...
+    @overload
+    def c2d(self, q: Numbers) -> FloatArray: ...
+    def c2d(self, q: float | Numbers) -> float | FloatArray:
         """C_2D as the mean over all directions, constant in each ring, of the mean square of the heights [m^4]."""
         edges, level = np.array(self.edges), np.array(self._rings[1])
         ring = np.searchsorted(edges, np.abs(np.asarray(q, dtype=np.float64)), side="right") - 1
         inside = (ring >= 0) & (ring < level.size)
-        return np.asarray(np.where(inside, level[np.clip(ring, 0, level.size - 1)], 0.0))
+        return number_or_array(np.asarray(np.where(inside, level[np.clip(ring, 0, level.size - 1)], 0.0)))
 
     def at(self, x: NDArray[np.floating], y: NDArray[np.floating]) -> FloatArray:
         """Heights over the grid of x and y, from the middle of the surface, ascending [m]: linear between points."""

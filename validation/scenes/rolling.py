@@ -26,7 +26,6 @@ from validation.scenes.scene import (
     Pairs,
     SceneDefaults,
     SceneQuantity,
-    values_of,
 )
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import (
@@ -136,10 +135,6 @@ class RollingScene(OnTrack, SceneDefaults):
         else:
             check_band("rail.roughness", self.ground)
             _check_waves(self.ground, self.contact_radius)
-
-    def __repr__(self) -> str:
-        given = ", ".join(f"{name}={value!r}" for name, value in values_of(self).items())
-        return f"{type(self).__name__}({given})"
 
     @classmethod
     def of_wheel(cls, scene: "RollingScene") -> "RollingScene":

@@ -2,13 +2,10 @@
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import ClassVar, overload
 
 from mdr import SelfAffine
-from mdr.checks import positive
+from mdr.checks import FloatArray, Numbers, positive
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.reader import LENGTH, NUMBER, Reader, table
 from validation.scenes.units import in_unit
@@ -42,6 +39,10 @@ class Roughness:
     longest: float
     shortest: float
 
+    def __repr__(self) -> str:
+        rms, longest, shortest = (f"{value:.5g}" for value in (self.rms, self.longest, self.shortest))
+        return f"Roughness(rms={rms}, hurst={self.hurst:.4g}, longest={longest}, shortest={shortest})"
+
     @property
     def q_min(self) -> float:
         """2 pi over the longest wave [rad/m]."""
@@ -72,7 +73,11 @@ class Roughness:
         """The ends of the spectrum, (q_min, q_max) [rad/m]."""
         return self.q_min, self.q_max
 
-    def c2d(self, q: ArrayLike) -> NDArray[np.float64]:
+    @overload
+    def c2d(self, q: float) -> float: ...
+    @overload
+    def c2d(self, q: Numbers) -> FloatArray: ...
+    def c2d(self, q: float | Numbers) -> float | FloatArray:
         """C_2D of the spectrum [m^4]."""
         return self.spectrum.c2d(q)
 

@@ -1,15 +1,19 @@
 """What a scene says of itself, whichever body it has."""
 
 import math
-from dataclasses import dataclass, fields
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 
+from validation.analysis.contents import as_html
+from validation.analysis.escapes import one_line, shortened_text
 from validation.analysis.statistics import FloatArray
 from validation.scenes.material import Material
 from validation.scenes.roughness import RoughSurface
+from validation.scenes.units import in_unit
 
 
 @dataclass(frozen=True)
@@ -19,8 +23,8 @@ class SceneQuantity:
     key: in scripts, on the command line and in files; unit: of its amplitude; reference: of its decibels, in SI units;
     in_bands: whether it is a level in each one-third octave, else one number; of_motion: whether the wheel has to move;
     by_worst_band: whether a tolerance holds in each band that counts, else over the root mean square of all;
-    counted_above: level above which a band counts [dB]; averaged_itself: whether realisations have the mean of their
-    values, else that of their logarithms.
+    counted_above: level above which a band counts, up to the first that is not [dB]; averaged_itself: whether
+    realisations have the mean of their values, else that of their logarithms.
     """
 
     key: str
@@ -37,11 +41,15 @@ class SceneQuantity:
 
 
 STIFFNESS = SceneQuantity("stiffness", "N/m", averaged_itself=True)
+CONTACT_AREA = SceneQuantity("contact-area", "m²", averaged_itself=True)
+MEAN_GAP = SceneQuantity("mean-gap", "m", averaged_itself=True)
 FORCE_RMS = SceneQuantity("force-rms", "N")
 FORCE_SPECTRUM = SceneQuantity("force-spectrum", "N", in_bands=True)
 ACCELERATION = SceneQuantity("acceleration", "m/s²", in_bands=True, of_motion=True)
 ACCELERATION_RMS = SceneQuantity("acceleration-rms", "m/s²", of_motion=True)
 PRESSED = (STIFFNESS,)
+INTERFACE = (CONTACT_AREA, MEAN_GAP)
+"""Of a rough punch: the true contact area, and the mean distance of the deformed faces over the side."""
 ROLLING = (FORCE_RMS, FORCE_SPECTRUM)
 MOVING = (ACCELERATION, ACCELERATION_RMS)
 
@@ -213,11 +221,46 @@ def values_of(scene: Any) -> dict[str, Any]:
     return {name: value for name, (value, about) in values.items() if value is not None or "later" not in about}
 
 
+def parameters_of(scene: Any) -> dict[str, float | str | None]:
+    """Numbers and texts of a scene and of what it holds in SI units, by their names in Python, as "ground.rms".
+
+    Arrays and tuples, as heights and levels, are left out.
+    """
+
+    def walk(part: Any, path: str) -> Iterator[tuple[str, Any]]:
+        for name in (each.name for each in fields(part)):
+            value = getattr(part, name)
+            if is_dataclass(value):
+                yield from walk(value, f"{path}{name}.")
+            elif value is None or isinstance(value, str | int | float):
+                yield f"{path}{name}", value
+
+    return dict(walk(scene, ""))
+
+
 class SceneDefaults:
     """What most scenes answer."""
 
     ground: RoughSurface | None
     shares_solves: ClassVar[bool] = False
+
+    def __repr__(self) -> str:
+        scene: Any = self
+        size = getattr(scene, "size", None) or scene.radius
+        parts = [
+            repr(shortened_text(scene.name)),
+            f"{scene.size_key.partition('.')[2]}={in_unit(size, 'length')}",
+            f"load={in_unit(scene.load, 'force')}",
+            *([f"speed={in_unit(scene.speed, 'speed')}"] if scene.speed is not None else []),
+            *([f"rms={in_unit(scene.ground.rms, 'length')}"] if scene.ground is not None else []),
+        ]
+        return one_line(f"{type(self).__name__}({', '.join(parts)})")
+
+    def _repr_html_(self) -> str:
+        """What `describe` says, as a table."""
+        scene: Any = self
+        names, texts = zip(*scene.describe(), strict=True)
+        return as_html(scene.name, {"": names, " ": texts})
 
     @property
     def error_source(self) -> str:

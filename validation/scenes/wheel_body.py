@@ -15,6 +15,7 @@ from mdr.checks import count, finite, positive
 from validation.analysis.escapes import shortened
 from validation.analysis.statistics import FloatArray
 from validation.scenes.measured_heights import MeasuredHeights
+from validation.scenes.rail_impedance import RailBody, RailImpedance
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.scene import ContactEllipse
 from validation.theory.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
@@ -106,10 +107,11 @@ class OnHalfSpace:
 class DampedWheel(Wheel):
     """A wheel with a dashpot: M z'' = F - F_N - c z', c = 2 zeta M omega_eigen, whatever its contact is.
 
-    damping: zeta, of critical, at least zero and below one; ValueError for another.
+    damping: zeta, of critical, at least zero and below one; ValueError for another. rail: under it, None where rigid.
     """
 
     damping: float = 0.0
+    rail: RailImpedance | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -119,6 +121,12 @@ class DampedWheel(Wheel):
 def damping_rate(wheel: Wheel) -> float:
     """c / M = 2 zeta omega_eigen [1/s]; zero without a dashpot."""
     return 2 * wheel.damping * wheel.eigenfrequency if isinstance(wheel, DampedWheel) else 0.0
+
+
+def moving_bodies(wheel: Wheel, time_step: float) -> tuple[RailBody, ...]:
+    """The wheel with its dashpot, and those of the rail in steps dt [s]: their motions add up to the approach."""
+    of_rail = wheel.rail.bodies(time_step) if isinstance(wheel, DampedWheel) and wheel.rail else ()
+    return RailBody(wheel.mass, wheel.mass * damping_rate(wheel)), *of_rail
 
 
 def check_damping(damping: float, mass: float | None) -> None:

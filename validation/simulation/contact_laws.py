@@ -6,11 +6,14 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from validation.engine.engine import FloatArray
-from validation.scenes.wheel_body import Wheel, damping_rate
+from validation.scenes.wheel_body import Wheel, moving_bodies
+
+ComplexArray = NDArray[np.complex128]
 
 
 class ContactLaw(Protocol):
@@ -60,21 +63,46 @@ class LinearLaw:
         """Approach and velocity at place 0 of the motion that repeats itself with the track, exactly in leapfrog steps.
 
         d = d_N + sum_j y_j exp(i omega_j t), no free vibration; with s = 2 sin(omega_j dt / 2) / dt
-        y_j = -dF_j / (k - M s^2 + i c sin(omega_j dt) / dt).
+        y_j = -dF_j / (k + D), D = -M s^2 + i c sin(omega_j dt) / dt; on a rail that gives way 1 / D is the sum over the
+        wheel and each body of the rail. Velocities are shaped as in `Motion`.
         Raises ValueError for a track on which a wave resonates.
         """
         count = len(self.change)
         waves = np.fft.rfft(self.change, axis=0, norm="forward")
-        omega = 2 * np.pi * np.fft.rfftfreq(count, time_step)[:, np.newaxis]
-        stepped = (2 * np.sin(omega * time_step / 2) / time_step) ** 2
-        dashpot = self.wheel.mass * damping_rate(self.wheel) * np.sin(omega * time_step) / time_step
-        dynamic = self.wheel.stiffness - self.wheel.mass * stepped + 1j * dashpot
+        omega = np.asarray(2 * np.pi * np.fft.rfftfreq(count, time_step))
+        each = dynamic_mass(self.wheel, omega, time_step)[:, :, np.newaxis]
+        body = in_series(each)
+        dynamic = self.wheel.stiffness + body
         if np.abs(dynamic).min() < 1e-9 * self.wheel.stiffness:
             raise ValueError("the track must not have a wave at the resonance, whose motion does not repeat itself")
         # the velocity of leapfrog at whole steps is the central difference
         motion = np.fft.irfft(-waves / dynamic, count, axis=0, norm="forward")
-        velocity = (motion[1] - motion[-1]) / (2 * time_step)
-        return np.asarray(self.wheel.approach + motion[0]), np.asarray(velocity)
+        if len(each) == 1:
+            velocity = (motion[1] - motion[-1]) / (2 * time_step)
+            return np.asarray(self.wheel.approach + motion[0]), np.asarray(velocity)
+        # each body takes its share of the approach, but of its mean, which is no motion
+        share = np.divide(body, each, out=np.zeros_like(each), where=each != 0)
+        share[:, 0] = 0.0
+        each_moves = np.fft.irfft(-waves / dynamic * share, count, axis=1, norm="forward")
+        velocities = (each_moves[:, 1] - each_moves[:, -1]) / (2 * time_step)
+        return np.asarray(self.wheel.approach + motion[0]), np.asarray(velocities)
+
+
+def dynamic_mass(wheel: Wheel, omega: FloatArray, time_step: float) -> ComplexArray:
+    """-m s^2 + i c sin(omega dt) / dt in steps of leapfrog, force over displacement [N/m], (1 + bodies, frequencies).
+
+    Of the wheel, and of each body of the rail under it; s = 2 sin(omega dt / 2) / dt.
+    """
+    stepped, speed = (2 * np.sin(omega * time_step / 2) / time_step) ** 2, np.sin(omega * time_step) / time_step
+    return np.array([-body.mass * stepped + 1j * body.dashpot * speed for body in moving_bodies(wheel, time_step)])
+
+
+def in_series(stiffness: ComplexArray) -> ComplexArray:
+    """1 / sum of 1 / D over the first axis; zero where one of them is."""
+    if len(stiffness) == 1:
+        return np.asarray(stiffness[0])
+    still = (stiffness == 0).any(axis=0)
+    return np.asarray(np.where(still, 0.0, 1 / (1 / np.where(still, 1.0, stiffness)).sum(axis=0)))
 
 
 class SpringsLaw:

@@ -12,6 +12,7 @@ from validation.engine.engine import FloatArray
 
 Acceleration = Callable[[int, FloatArray], FloatArray]
 State = tuple[FloatArray, FloatArray, FloatArray]
+Damping = float | FloatArray
 
 
 @dataclass(frozen=True)
@@ -59,8 +60,10 @@ def _runge_kutta(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> It
         y, v, place = y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), place + 2
 
 
-def velocity_verlet(rate: float = 0.0) -> Integrator:
-    """Velocity Verlet of y'' = f - rate y', rate = c / M [1/s].
+def velocity_verlet(rate: Damping = 0.0, share: Damping = 1.0) -> Integrator:
+    """Velocity Verlet of y'' = share f - rate y', rate = c / m [1/s].
+
+    Of arrays of shape (bodies, 1) each body has its own y, of which f has the sum, and velocities are (bodies, wheels).
 
     The new velocity is solved from its own damping: y_(n+1) - 2 y_n + y_(n-1) = dt^2 f_n - rate dt (y_(n+1) - y_(n-1))
     / 2, of second order, with the limit of the wheel without a dashpot.
@@ -70,10 +73,10 @@ def velocity_verlet(rate: float = 0.0) -> Integrator:
         place, a = 0, f(0, y)
         while True:
             yield y, v, a
-            half = v + dt / 2 * (a - rate * v)
-            y, place = y + dt * half, place + 1
+            half = v + dt / 2 * (share * a - rate * v)
+            y, place = y + dt * (half if isinstance(rate, float) else half.sum(axis=0)), place + 1
             a = f(place, y)
-            v = (half + dt / 2 * a) / (1 + rate * dt / 2)
+            v = (half + dt / 2 * share * a) / (1 + rate * dt / 2)
 
     return Integrator("velocity Verlet", march, limit=2.0)
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mdr.checks import positive
+from validation.analysis.escapes import one_line
 from validation.engine.engine import FloatArray
 from validation.engine.street import modules_in
 from validation.scenes.rolling import RollingQuantity
@@ -117,6 +118,9 @@ class Model:
     charted: bool = True
     is_mdr: bool = False
 
+    def __repr__(self) -> str:
+        return one_line(f"{type(self).__name__}({self.name!r}, {self.setting!r})")
+
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
         """The error that it expects, before it has computed anything."""
         return self.claim(self, target, resolution)
@@ -131,7 +135,7 @@ class Model:
         return resolve_name, (":".join(self.place),)
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class GridModel(Model):
     """Boundary elements, whose solves on other grids tell what a grid leaves: the reference of all other models.
 

@@ -1,7 +1,7 @@
 """(14.15) and (14.16): a wheel that rolls over a rough track, for any contact force."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from mdr.checks import positive
 from validation.engine.engine import FloatArray
-from validation.scenes.wheel_body import Wheel, damping_rate
+from validation.scenes.rail_impedance import RailBody
+from validation.scenes.wheel_body import Wheel, moving_bodies
 from validation.simulation.contact_laws import ContactLaw, LinearLaw
 from validation.simulation.integrators import VELOCITY_VERLET, Integrator, velocity_verlet
 
@@ -21,7 +22,8 @@ class Motion:
     acceleration: z'' upward, shape (steps, wheels) [m/s^2]; time_step: of the record [s]; lowest, highest: approach of
     each wheel [m]; airborne: steps of each wheel without contact; initial_velocity: d' at first [m/s]; approach,
     velocity, next_acceleration: d [m], d' [m/s] and z'' [m/s^2] after the last step; path, force: d and F at each
-    step, shape (steps, wheels), None unless they were asked for.
+    step, shape (steps, wheels), None unless they were asked for. On a rail that gives way velocities are those of the
+    wheel, downward, and of each body of the rail, upward, whose sum is d', shape (1 + bodies, wheels).
     """
 
     acceleration: FloatArray
@@ -47,11 +49,16 @@ class Motion:
         return np.asarray(self.next_acceleration - self.acceleration[0])
 
 
-def _damped_integrator(integrator: Integrator, rate: float) -> Integrator:
-    """The integrator for a dashpot of rate c / M [1/s]: velocity Verlet alone has one. Raises ValueError."""
-    if rate and integrator is not VELOCITY_VERLET:
-        raise ValueError(f"integrator must be {VELOCITY_VERLET.name} for a wheel with damping, got {integrator.name}")
-    return velocity_verlet(rate) if rate else integrator
+def _integrator_of(bodies: Sequence[RailBody], integrator: Integrator) -> Integrator:
+    """The integrator for bodies with dashpots, the wheel first: velocity Verlet alone has them. Raises ValueError."""
+    wheel, *rail = bodies
+    if (wheel.dashpot or rail) and integrator is not VELOCITY_VERLET:
+        kind = "on a rail that gives way" if rail else "with damping"
+        raise ValueError(f"integrator must be {VELOCITY_VERLET.name} for a wheel {kind}, got {integrator.name}")
+    if not rail:
+        return velocity_verlet(wheel.dashpot / wheel.mass) if wheel.dashpot else integrator
+    mass, dashpot = (np.array(column)[:, np.newaxis] for column in zip(*bodies, strict=True))
+    return velocity_verlet(dashpot / mass, wheel.mass / mass)
 
 
 def simulate(
@@ -67,23 +74,25 @@ def simulate(
 ) -> Motion:
     """M z'' = F(x, d) - F_N - c z', d'' = -z'', one cell of the track in each time step dx / v_0.
 
+    On a rail that gives way d = -z - sum of u_j, m_j u_j'' = F - F_N - c_j u_j' of each body of the rail, downward.
+
     law: the contact force of all wheels, which advance together; time_step: of one cell [s]; steps: that are recorded;
-    approach, velocity: of each wheel at the beginning, by default static equilibrium over the first cell [m, m/s];
+    approach, velocity: as in `Motion`, at the beginning, by default static equilibrium over the first cell [m, m/s];
     integrator: symplectic and of second order by default, the only one for a wheel with a dashpot; path: whether to
     keep approaches and forces.
     Wheels may lose contact, F = 0, and come back; the dashpot, between wheel and inertial frame, acts on.
     Raises ValueError for a step at or past the limit of the integrator, omega_eigen dt, before it begins.
     """
-    step = integrator.cells * positive("time_step", time_step)
-    _check_stable(wheel, step, integrator)
+    step, bodies = integrator.cells * positive("time_step", time_step), moving_bodies(wheel, time_step)
+    _check_stable(wheel, bodies, step, integrator)
     if steps < 1:
         raise ValueError(f"steps must be at least 1, got {steps}")
-    d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
-    v = np.zeros_like(d) if velocity is None else np.array(velocity, dtype=np.float64)
-    if not (np.isfinite(d).all() and np.isfinite(v).all() and d.shape == v.shape):
-        raise ValueError(f"approach and velocity must be finite and alike in shape, got {d} and {v}")
-    gravity, rate = wheel.load / wheel.mass, damping_rate(wheel)
-    integrator = _damped_integrator(integrator, rate)
+    d, v = _start(law, len(bodies), approach, velocity)
+    gravity, rate = wheel.load / wheel.mass, bodies[0].dashpot / wheel.mass
+    integrator = _integrator_of(bodies, integrator)
+
+    def lifted(a: FloatArray, v: FloatArray) -> FloatArray:
+        return np.negative(a - rate * (v if len(bodies) == 1 else v[0]))
 
     def acceleration(place: int, d: FloatArray) -> FloatArray:
         return np.asarray(gravity - law.force(place, d) / wheel.mass)
@@ -94,9 +103,8 @@ def simulate(
     lowest, highest, airborne = d, d, np.zeros(d.size, dtype=np.int64)
     for n in range(steps):
         d, v, a = next(states)
-        np.negative(a - rate * v, out=record[n])
+        record[n], airborne = lifted(a, v), airborne + (a >= gravity)
         lowest, highest = np.minimum(lowest, d), np.maximum(highest, d)
-        airborne += a >= gravity
         if paths is not None and forces is not None:
             paths[n], forces[n] = d, wheel.load - wheel.mass * a
     d, v, a = next(states)
@@ -109,10 +117,22 @@ def simulate(
         initial_velocity=initial_velocity,
         approach=d,
         velocity=v,
-        next_acceleration=-(a - rate * v),
+        next_acceleration=lifted(a, v),
         path=paths,
         force=forces,
     )
+
+
+def _start(
+    law: ContactLaw, bodies: int, approach: FloatArray | None, velocity: FloatArray | None
+) -> tuple[FloatArray, FloatArray]:
+    """Approach and velocities at the beginning, by default static equilibrium. Raises ValueError."""
+    d = law.at_rest(0) if approach is None else np.array(approach, dtype=np.float64)
+    each = d.shape if bodies == 1 else (bodies, *d.shape)
+    v = np.zeros(each) if velocity is None else np.array(velocity, dtype=np.float64)
+    if not (np.isfinite(d).all() and np.isfinite(v).all() and v.shape == each):
+        raise ValueError(f"approach and velocity must be finite and alike in shape, {each}, got {d} and {v}")
+    return d, v
 
 
 def simulate_from_linear_motion(
@@ -175,14 +195,19 @@ def natural_periods(wheel: Wheel, length: float, speed: float) -> float:
     return wheel.eigenfrequency * length / speed / (2 * math.pi)
 
 
-def _check_stable(wheel: Wheel, step: float, integrator: Integrator) -> None:
-    """Raise ValueError where omega_eigen times the step [s] reaches the limit of the integrator."""
-    omega_dt, limit = wheel.eigenfrequency * step, max(integrator.limit, 2.0)
-    if omega_dt >= limit:
+def _check_stable(wheel: Wheel, bodies: Sequence[RailBody], step: float, integrator: Integrator) -> None:
+    """Raise ValueError where omega times the step [s] reaches the limit of the integrator.
+
+    omega^2 = k sum of 1 / m: omega_eigen of a wheel, and what Verlet needs of a rail whatever its dashpots are.
+    """
+    omega = wheel.eigenfrequency if len(bodies) == 1 else math.sqrt(wheel.stiffness * sum(1 / b.mass for b in bodies))
+    limit = max(integrator.limit, 2.0)
+    if omega * step >= limit:
         why = "the motion would grow without bound"
         if not integrator.limit:
             why = "the motion grows at any step, and from 2 on nothing would be left of it"
+        name = "omega_eigen" if len(bodies) == 1 else "omega of wheel and rail on the contact"
         raise ValueError(
-            f"time_step must be below {limit:.6g} / omega_eigen = {limit / wheel.eigenfrequency:.6g} s for "
-            f"{integrator.name}, got {step:.6g} s: omega_eigen dt = {omega_dt:.6g}, and {why}"
+            f"time_step must be below {limit:.6g} / {name} = {limit / omega:.6g} s for "
+            f"{integrator.name}, got {step:.6g} s: {name} dt = {omega * step:.6g}, and {why}"
         )

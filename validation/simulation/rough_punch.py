@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 import bem3d
 import mdr
@@ -262,10 +261,9 @@ class PlateauSpectrum(mdr.SelfAffine):
 
     q_roll_off: float
 
-    def c2d(self, q: ArrayLike) -> FloatArray:
+    def _density(self, q: FloatArray) -> FloatArray:
         """C_2D(max(q, q_r)) in the band [m^4]."""
-        q = np.abs(np.asarray(q, dtype=np.float64))
-        return np.asarray(np.where(super().c2d(q) > 0, super().c2d(np.maximum(q, self.q_roll_off)), 0.0))
+        return np.asarray(np.where(super()._density(q) > 0, super()._density(np.maximum(q, self.q_roll_off)), 0.0))
 
 
 @dataclass(frozen=True, kw_only=True)

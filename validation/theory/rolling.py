@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
+from scipy.optimize import brentq
 
 from validation.theory.closed_forms import circular_punch_stiffness, positive
 from validation.theory.half_space import on_panels
@@ -44,6 +45,23 @@ def dynamic_stiffness(
     return np.asarray(stiffness - mass * inertia + 1j * dashpot * speed)
 
 
+def contact_resonance(*, stiffness: float, mass: float, impedance: Callable[[float], NDArray[np.complex128]]) -> float:
+    """omega at which the imaginary parts of i omega / k + 1 / (i omega M) + 1 / Z(omega) cancel [rad/s].
+
+    The mobilities of the contact spring, of the wheel and of the rail under it; impedance: Z [N s/m], of a mass or a
+    damper. Above sqrt(k / M), where the rail is rigid. Source: Thompson, Railway Noise and Vibration, chapter 2.
+    """
+    rigid = math.sqrt(stiffness / mass)
+
+    def left(omega: float) -> float:
+        return omega / stiffness - 1 / (omega * mass) + float((1 / impedance(omega)).imag)
+
+    high = rigid
+    while left(high) < 0:
+        high *= 2
+    return float(brentq(left, rigid, high)) if high > rigid else rigid
+
+
 def acceleration_over_force(
     omega: ArrayLike, *, eigenfrequency: float, mass: float, damping: float = 0.0
 ) -> FloatArray:
@@ -53,6 +71,17 @@ def acceleration_over_force(
     """
     ratio = eigenfrequency / np.asarray(omega, dtype=np.float64)
     return np.asarray(1 / ((mass * (1 - ratio**2)) ** 2 + (2 * damping * mass * ratio) ** 2))
+
+
+def over_the_resonance(*, eigenfrequency: float, mass: float, damping: float) -> float:
+    """int abs(a(omega) / dF(omega))^2 df over the resonance, positive frequencies, omega_0 / (8 zeta M^2) [Hz/kg^2].
+
+    Leading order in zeta, positive: under a force whose spectrum is level there, what region 1 of the acceleration
+    holds. Without damping there is no such integral: the level grows as the record gets longer.
+    """
+    if not damping > 0:
+        raise ValueError(f"damping must be positive, got {damping:g}: a resonance of no width has no integral")
+    return eigenfrequency / (8 * damping * mass**2)
 
 
 def contact_force_over_force(omega: ArrayLike, *, eigenfrequency: float, damping: float) -> FloatArray:
@@ -326,3 +355,15 @@ class RollingWheel:
         q = np.asarray(omega, dtype=np.float64) / self.speed
         force = over_frequency(self.force_spectrum(q, c1d, q_max=q_max), speed=self.speed)
         return np.asarray(force * np.abs((q * self.speed) ** 2 * self.compliance(q)) ** 2)
+
+    def over_resonance(self, c1d: Callable[[FloatArray], FloatArray], *, q_max: float) -> float:
+        """int A df over the resonance, positive frequencies, of the second order: region 1 [(m/s^2)^2].
+
+        A_F2(omega_0) omega_0 / (8 zeta M^2), of leading order in zeta: it goes as one over the damping and depends on
+        no length of a record.
+        omega_0 below q_min v_0; c1d, q_max: as of `force_spectrum`. Raises ValueError without damping.
+        """
+        stiffness = circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
+        omega = math.sqrt(stiffness / self.mass)
+        (force,) = over_frequency(self.force_spectrum(omega / self.speed, c1d, q_max=q_max), speed=self.speed)
+        return float(force) * over_the_resonance(eigenfrequency=omega, mass=self.mass, damping=self.damping)

@@ -19,6 +19,7 @@ from validation.advice.models_of_scene import models_of, quantity_of
 from validation.advice.scene_model import Answer, SceneModel, Shared
 from validation.advice.tolerance import relative
 from validation.analysis.case import Outcomes
+from validation.analysis.spectra import assessed_bands
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.realisations import NotConvergedError, as_not_converged
 from validation.scenes.indentation import IndentationScene
@@ -281,15 +282,15 @@ def reference_at_edge(judge: SceneModel) -> tuple[Answer, str]:
 
 
 def true_error(trial: EdgeTrial, value: np.ndarray, truth: np.ndarray) -> float:
-    """How far an answer is off, as its model claims it: on a rail in the worst of the bands that count, else in all.
+    """How far an answer is off, as its model claims it: on a rail in the worst of the assessed bands, else in all.
 
-    NaN where none counts.
+    NaN where none is.
     """
     quantity = quantity_of(trial.scene, trial.quantity)
     if not quantity.by_worst_band:
         return distance(value, truth)
-    counted = 20 * np.log10(truth / quantity.reference) > quantity.counted_above
-    return relative(float(np.abs(20 * np.log10(value / truth))[counted].max())) if counted.any() else math.nan
+    assessed = assessed_bands(20 * np.log10(truth / quantity.reference), quantity.counted_above)
+    return relative(float(np.abs(20 * np.log10(value / truth))[assessed].max())) if assessed.any() else math.nan
 
 
 def _edge_row(trial: EdgeTrial, tolerance: float, solved: Shared, truth: np.ndarray) -> tuple[float, float, float]:

@@ -12,9 +12,9 @@ from validation.advice.export import Export
 from validation.advice.models_of_scene import all_quantities, label_notes, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
-from validation.advice.summary import findings, heading, in_full, in_short, summary
+from validation.advice.summary import facts, findings, heading, in_full, in_short, summary
 from validation.advice.tolerance import tolerance_of
-from validation.analysis.escapes import printable
+from validation.analysis.escapes import coloured, printable
 from validation.analysis.number_text import format_seconds
 from validation.engine.engine import Engine
 from validation.engine.files import write_output
@@ -182,13 +182,18 @@ def _solve_and_write(
     solved = _solve(problems, arguments)
     comparisons = [replace(comparison, swept=sweep) for comparison, sweep in zip(solved, swept, strict=True)]
     lines_of = in_full if arguments.verbose else in_short
-    print(printable(findings(comparisons, lines_of) if len(problems) == 1 else summary(comparisons), lines=True))
+    if len(problems) == 1:
+        (problem,) = problems
+        text = f"{findings(comparisons, lines_of)}\n{facts(problem.scene, problem.quantities)}"
+    else:
+        text = summary(comparisons)
+    print(coloured(printable(text, lines=True)))
     _write(comparisons, arguments)
     return comparisons
 
 
 def _solve(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
-    """What was understood of one scene is printed before it is solved."""
+    """What is asked of one scene, and notes on it, are printed before it is solved."""
     if len(problems) == 1:
         (problem,) = problems
         print(printable(heading(problem.scene, problem.quantities, problem.parsed_tolerance), lines=True), flush=True)

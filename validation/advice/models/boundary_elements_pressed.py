@@ -1,7 +1,8 @@
-"""Boundary elements under a rough body: surfaces on a grid, and what coarser grids say of its error."""
+"""Boundary elements under a rough body: stiffness, contact area and gap, and what coarser grids say of their error."""
 
 import math
 import warnings
+from typing import Any
 
 import numpy as np
 
@@ -9,6 +10,7 @@ import bem3d
 from validation.advice.calibration import SCATTER
 from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
+from validation.scenes.scene import CONTACT_AREA, INTERFACE, MEAN_GAP
 from validation.simulation import indentation as face
 from validation.simulation.indentation import ground_of, height_of, is_rough, side_of, sufficient_cells
 from validation.simulation.method import FEWEST, STUDENT, Prepared, Resolution, Result, Solve, grid_error
@@ -33,8 +35,16 @@ SPLIT, MOST_SPLIT = 3, 1024
 OTHERS = 3.0
 """Changes by coarser grids over what they tell of a face whose points are split: of 64 faces at the edges of all ranges
 the error then covers what splitting in eight changes in all, and linear interpolation between points in 62."""
+LEFT_OF_CORRECTION = 0.25
+"""Part of the correction of the contact area that it leaves open: `bem3d.Contact.corrected_area`."""
 MOST = 1000
 """Surfaces that are drawn at the most."""
+
+
+def is_solved(scene: Any, quantity: str) -> bool:
+    """The stiffness of a rough body; contact area and mean gap of a rough punch."""
+    of_interface = scene.kind == "punch" and scene.ground is not None and quantity in map(str, INTERFACE)
+    return is_rough(scene, quantity) or of_interface
 
 
 def resolutions(target: Target) -> tuple[Resolution, ...]:
@@ -82,7 +92,11 @@ def prepare(target: Target, resolution: Resolution) -> Prepared:
     scene, cells = target.scene, round(resolution.size)
 
     def solve(realisation: int) -> Result:
-        return pressed(scene, height_of(scene, cells, realisation, target.seed), resolution.residual)
+        result = pressed(scene, height_of(scene, cells, realisation, target.seed), resolution.residual)
+        least = resolution.residual * ground_of(scene).rms
+        if not result.failed and target.quantity == str(MEAN_GAP) and result.values[target.quantity] <= least:
+            return Result({}, result.work, failed="the gap is closed: its mean is below the residual of the solve")
+        return result
 
     return lambda realisation: Solve(lambda: solve(realisation), lambda result: result)
 
@@ -104,8 +118,10 @@ def pressed(scene: IndentationScene, height: FloatArray, residual: float) -> Res
     work = cell_applications(contact, fixed)
     if sphere and any(issubclass(warning.category, bem3d.EdgeWarning) for warning in raised):
         return Result({}, work, failed="the contact reached the edge of the grid")
-    values = {"stiffness": np.array(fixed.stiffness), "in contact": np.array(np.count_nonzero(contact.pressure))}
-    return Result(values, work)
+    values = {"stiffness": fixed.stiffness, "in contact": np.count_nonzero(contact.pressure)}
+    if not sphere:
+        values |= {str(CONTACT_AREA): contact.corrected_area, str(MEAN_GAP): contact.mean_gap}
+    return Result({name: np.array(value) for name, value in values.items()}, work)
 
 
 def left_by_grid(
@@ -123,13 +139,14 @@ def left_by_grid(
     else:
         # the waves that a grid leaves out may hide the error at the edge of a punch in its change
         grid = max(grid_error(changes[1], changes[0]), edge_error(target.scene, cells))
+    grid += left_by_correction(target, resolution)
     last = math.expm1(float(changes[0].mean()))
     reason = f"{cells}² cells change {cells // 2}² by {last:+.1%}, surfaces: {len(values)}"
     return grid + SOLVER, reason
 
 
 MODEL = GridModel(
-    serves=is_rough,
+    serves=is_solved,
     label=lambda resolution: f"{BEM} {resolution.size:g}²",
     resolutions=resolutions,
     references=references,
@@ -170,11 +187,21 @@ def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray, 
     return float(1.5 * max(edge_error(scene, cells), *coarser) * (1 + math.log2(sufficient_cells(scene) / cells)))
 
 
-def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:
+def hidden(target: Target, resolution: Resolution, value: float) -> float:
     """What the mean over cells may hide: the change of the logarithm by the highest point of each in its place."""
     scene, cells = target.scene, round(resolution.size)
     highest = face.highest_of(scene, cells)
     if np.array_equal(highest, height_of(scene, cells, 0, target.seed)):
         return 0.0
     at_highest = pressed(scene, highest, resolution.residual)
-    return math.inf if at_highest.failed else abs(math.log(float(at_highest.values["stiffness"]) / stiffness))
+    return math.inf if at_highest.failed else abs(math.log(float(at_highest.values[target.quantity]) / value))
+
+
+def left_by_correction(target: Target, resolution: Resolution) -> float:
+    """Of the logarithm of the contact area, by the first surface; zero of other quantities."""
+    if target.quantity != str(CONTACT_AREA):
+        return 0.0
+    scene, cells = target.scene, round(resolution.size)
+    values = pressed(scene, height_of(scene, cells, 0, target.seed), resolution.residual).values
+    counted = float(values["in contact"]) * (side_of(scene) / cells) ** 2
+    return LEFT_OF_CORRECTION * math.log(counted / float(values[target.quantity]))

@@ -1,11 +1,13 @@
 """Speed against accuracy: error and cost of every method on all problems, timed one after the other, alone."""
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
+from typing import Any
 
 from validation.analysis.evidence import Number, Role, Table, Whose, grouped, table_of
-from validation.analysis.number_text import in_seconds, times_source
+from validation.analysis.number_text import in_seconds, interval_text, plus_minus, short, times_source
 from validation.analysis.series import Margin, single
 from validation.analysis.statistics import Interval
 from validation.benchmarks.peers import all_methods
@@ -13,14 +15,14 @@ from validation.benchmarks.timing import FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import pareto
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS, HOURS, FigureCost, figure_cost
 from validation.benchmarks.work_precision.pareto import (
-    FASTER,
+    FACTOR,
+    SHOWN,
+    TOLERANCES,
     Point,
     cheapest,
-    cheapest_as_close,
-    faster,
+    cheapest_settings,
     front,
     points,
-    seconds,
     time_over,
 )
 from validation.benchmarks.work_precision.problem import (
@@ -31,6 +33,7 @@ from validation.benchmarks.work_precision.problem import (
     ChartProblem,
     Grids,
     PunchProblem,
+    RolledOffPunchProblem,
     RollingProblem,
     RoughPunchProblem,
     SphereProblem,
@@ -43,7 +46,7 @@ from validation.case import SERIAL, Case, Chapter, Chart, Claim, Engine, Outcome
 class Precision:
     """Everything that is timed.
 
-    sphere, punch, fractal, rolling: the problems; cost: of Fig. 14.4; slow: a solve of the same problem
+    sphere, punch, fractal, rolled_off, rolling: the problems; cost: of Fig. 14.4; slow: a solve of the same problem
     that takes longer is timed once [s]; enough: after so many seconds five runs are enough; seed: of all roughness,
     zero or positive.
     """
@@ -51,6 +54,7 @@ class Precision:
     sphere: SphereProblem = field(default_factory=SphereProblem)
     punch: PunchProblem = field(default_factory=PunchProblem)
     fractal: RoughPunchProblem = field(default_factory=RoughPunchProblem)
+    rolled_off: RolledOffPunchProblem = field(default_factory=RolledOffPunchProblem)
     rolling: RollingProblem = field(default_factory=RollingProblem)
     cost: FigureCost = field(default_factory=FigureCost)
     slow: float = 0.2
@@ -59,12 +63,13 @@ class Precision:
 
     def problems(self) -> tuple[ChartProblem, ...]:
         """First those with a closed form, then those without."""
-        rough = (replace(problem, seed=self.seed) for problem in (self.fractal, self.rolling))
+        rough = (replace(problem, seed=self.seed) for problem in (self.fractal, self.rolled_off, self.rolling))
         return (self.sphere, self.punch, *rough)
 
 
 QUICK = Precision(
     fractal=RoughPunchProblem(realisations=8, profiles=60),
+    rolled_off=RolledOffPunchProblem(realisations=8, profiles=60),
     rolling=RollingProblem(
         length=16,
         tracks=10,
@@ -82,14 +87,20 @@ FULL = Precision(
     fractal=RoughPunchProblem(
         realisations=100,
         profiles=500,
-        grids=Grids(cells=(24, 32, 64, 128, 256), fixed=128),
-        springs=(24, 32, 64, 128, 256, 512, 1024),
+        grids=Grids(cells=(96, 128, 192, 256, 512), fixed=128),
+        springs=(96, 128, 256, 512, 1024),
+    ),
+    rolled_off=RolledOffPunchProblem(
+        realisations=100,
+        profiles=500,
+        grids=Grids(cells=(24, 32, 48, 64, 128, 256), fixed=32),
+        springs=(24, 32, 64, 128, 256, 512),
     ),
     rolling=RollingProblem(
         length=32,
         realisations=8,
         tracks=60,
-        grids=Grids(cells=(3, 4, 6, 8, 12, 16, 32), fixed=12, per="to a radius"),
+        grids=Grids(cells=(3, 4, 6, 8, 12, 16, 32), fixed=4, per="to a radius"),
     ),
     cost=FigureCost(steps=900),
     slow=1.0,
@@ -121,7 +132,8 @@ def failure_messages(charted: Sequence[Point]) -> tuple[str, ...]:
 
 COST = Quantity("time_of_Fig._14.4_on_one_core")
 AGREEMENT = "10 %, or 1 dB: tolerance of agreement"
-TIME, UP_TO, FROM = Quantity("time_over_that_of_the_cheapest_other_method_as_close"), "springs", "boundary elements"
+TIME = Quantity("time_over_that_of_the_cheapest_other_method_within_the_tolerance")
+UP_TO, FROM = "springs", "boundary elements"
 CHEAPEST = Margin(1.0, "above one another method is cheaper")
 A_DAY = "a day on one core is not too costly"
 
@@ -154,28 +166,41 @@ def _model_errors(chart: Sequence[Point]) -> Iterator[Series]:
 
 
 def times(chart: Sequence[Point]) -> Iterator[Series]:
-    """Yield times of springs along their own front, and of boundary elements along the rest of the front."""
+    """Yield times of springs within the tolerances that they reach, and of boundary elements within the others.
+
+    Each over that of the cheapest other method within the same tolerance.
+    """
     candidates = [point for point in chart if point.finished and not point.is_reference]
-    springs = front([point for point in candidates if point.method in SPRINGS])
-    if springs:
-        rivals = [point for point in candidates if point.method not in SPRINGS]
-        yield _time_series(UP_TO, springs, [(point, cheapest_as_close(point, rivals)) for point in springs])
-        elements = [point for point in candidates if point.method in ELEMENTS]
-        beyond = [point for point in front(candidates) if point.rank < springs[-1].rank]
-        pairs = [(element_point, point) for point in beyond if (element_point := cheapest_as_close(point, elements))]
-        if pairs:
-            yield _time_series(FROM, [point for _, point in pairs], pairs)
+    springs = [point for point in candidates if point.method in SPRINGS]
+    elements = [point for point in candidates if point.method in ELEMENTS]
+    rivals = [point for point in candidates if point.method not in SPRINGS]
+    reached: list[Pair] = []
+    beyond: list[Pair] = []
+    for tolerance in TOLERANCES[chart[0].unit]:
+        if point := cheapest(springs, tolerance):
+            reached.append((tolerance, point, cheapest(rivals, tolerance)))
+        elif springs and (point := cheapest(elements, tolerance)):
+            beyond.append((tolerance, point, cheapest(candidates, tolerance)))
+    if reached:
+        yield _time_series(UP_TO, reached)
+    if beyond:
+        yield _time_series(FROM, beyond)
 
 
-def _time_series(model: str, at: Sequence[Point], pairs: Sequence[tuple[Point, Point | None]]) -> Series:
-    """Return ratios of times at errors that both methods reach; the ratio is zero where no other method does."""
-    first, scale = at[0], 1.0 if at[0].unit == "dB" else 100.0
-    along, errors = f"error [{first.unit}]", [scale * point.rank for point in at]
+Pair = tuple[float, Point, Point | None]
+"""A tolerance in the unit of errors, the cheapest setting of a method, and that of another method, if any."""
+
+
+def _time_series(model: str, pairs: Sequence[Pair]) -> Series:
+    """Return ratios of times within the same tolerances; the ratio is zero where no other method is within."""
+    first = pairs[0][1]
+    along, at = f"tolerance [{first.unit}]", [SHOWN[first.unit] * tolerance for tolerance, _, _ in pairs]
     where = {"scene": first.scene, "quantity": first.quantity}
-    ratios = Series(TIME, model, [_time_ratio(*p) for p in pairs], where=where, along=along, at=errors, margin=CHEAPEST)
-    (worst,) = ratios.numbers
-    _, other = pairs[[place == worst.where["worst at"] for place in errors].index(True)]
-    return replace(ratios, margin=replace(CHEAPEST, source=other.method if other else "no other method is as close"))
+    ratios = [_time_ratio(point, other) for _, point, other in pairs]
+    series = Series(TIME, model, ratios, where=where, along=along, at=at, margin=CHEAPEST)
+    (worst,) = series.numbers
+    _, _, other = pairs[[place == worst.where["worst at"] for place in at].index(True)]
+    return replace(series, margin=replace(CHEAPEST, source=other.method if other else "no other method is within"))
 
 
 def _time_ratio(numerator: Point, denominator: Point | None) -> Interval:
@@ -185,8 +210,8 @@ def _time_ratio(numerator: Point, denominator: Point | None) -> Interval:
 
 POINTS = "points"
 WITHIN = Quantity(
-    "the_cheapest_method_within_a_tolerance_time_of_one_realisation",
-    "the cheapest method within a tolerance, time of one realisation",
+    "the_cheapest_setting_within_a_tolerance_of_each_method",
+    "the cheapest setting within a tolerance, of each method: error, time of one realisation, times faster than BEM",
 )
 WITHOUT = Quantity("failed_or_out_of_range")
 COLUMNS = {
@@ -203,8 +228,12 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
     point_table = table_of(POINTS, [row for chart in charts for row in _point_rows(chart)])
     unfinished, by = point_table.rows(point_table["status"] != FINISHED), ("scene", "method", "setting", "status")
     without = grouped(WITHOUT, unfinished, by, {"quantities": lambda group: ", ".join(group["quantity"])})
-    within = table_of(WITHIN, [_cheapest_row(chart) for chart in charts])
-    return point_table, faster(charts), within, without, result["cost"]
+    settings = cheapest_settings(charts)
+    rows = [dict(zip(settings.columns, row, strict=True)) for row in zip(*settings.columns.values(), strict=True)]
+    loosest = {unit: SHOWN[unit] * max(tolerances) for unit, tolerances in TOLERANCES.items()}
+    shown = [row for row in rows if row["a setting within"] or row["tolerance"] == loosest[row["unit"]]]
+    within = table_of(WITHIN, [_row_as_text(row) for row in shown])
+    return point_table, settings, within, without, result["cost"]
 
 
 def _point_rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
@@ -217,24 +246,31 @@ def _point_rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
         yield row | {"front": p in by_time}
 
 
-def _cheapest_row(chart: Sequence[Point]) -> dict[str, object]:
-    """Return the cheapest method of a chart within each tolerance, a column a tolerance."""
-    cells = {f"within {100 * tolerance:g} %": _cheapest_within(chart, tolerance) for tolerance in pareto.TOLERANCES}
-    return {"scene": chart[0].scene, "quantity": chart[0].quantity, **cells}
+def _row_as_text(row: Mapping[str, Any]) -> dict[str, object]:
+    """Return a row of `cheapest_settings` as a person reads it; without a setting, the least error of the method."""
+    meets, unit = row["a setting within"], row["unit"]
+    error = f"{plus_minus(row['error'], row['± sample'] + row['± reference'])} {unit}"
+    factor, low, high = (float(row[name]) for name in (FACTOR, "factor from", "factor to"))
+    return {
+        **{name: row[name] for name in ("scene", "quantity")},
+        **{"tolerance": f"{row['tolerance']:g} {unit}", "method": row["method"]},
+        **{"setting": row["setting"] if meets else f"none, the closest: {row['setting']}"},
+        **{"error": error, "verdict": row["verdict"]},
+        **{"time": time_text(row["time [s]"], row["time from [s]"], row["time to [s]"])},
+        **{"times faster": f"{short(factor)} ({interval_text(low, high)})" if math.isfinite(factor) else "–"},
+    }
 
 
-def _cheapest_within(chart: Sequence[Point], tolerance: float) -> str:
-    """Return method, setting and time of the cheapest point as text, or why no point is within the tolerance."""
-    best = cheapest(chart, tolerance)
-    if not best:
-        return pareto.reason_if_none(chart, tolerance)
-    return f"{best.method}, {best.setting}: {in_seconds(seconds(best))}"
+def time_text(seconds: float, low: float, high: float) -> str:
+    """A median time with its 95 % interval, "54 ms (50 ms to 58 ms)"."""
+    return f"{in_seconds(seconds)} ({in_seconds(low)} to {in_seconds(high)})"
 
 
 MARKS = (
-    "Grey: the uncertainty of the reference, or, for closed forms, below the smallest error; marks at its edge, "
-    "pointing down, lie within it. Thick line: the Pareto front, by upper ends of errors. Bars: 95 % of the sample, "
-    "quartiles of times. Crosses along the top: failed or out of range, for the reason in the table."
+    "Dotted lines: tolerances. Numbers at the marks: the setting, as cells, springs or residual. Grey: the uncertainty "
+    "of the reference, or, for closed forms, below the smallest error; marks at its edge, pointing down, lie within "
+    "it. Thick line: the Pareto front, by errors. Bars: 95 % intervals of errors, quartiles of times. Crosses along "
+    "the top: no result, for the reason in the table."
 )
 
 
@@ -245,27 +281,29 @@ def hours(number: Number) -> str:
 STUDY = Study(
     title="Speed against accuracy: the error and the cost of every method",
     method=(
-        "Each method is a curve along a parameter: cells, springs, residual. Error: beside closed forms where there "
-        "are any; elsewhere beside the two finest grids of boundary elements on the same surfaces, extrapolated to "
-        "cells of zero size. The last step of this extrapolation is the uncertainty of the reference, and errors below "
-        "it are treated as equal to it. Methods are ranked by the upper 95 % bound; if a finer setting has a larger "
-        "bound, that one is used. Errors of the two finest grids are steps of their own extrapolation. Spectra: root "
-        "mean square, over one-third octaves, of level differences. Springs have roughness of their own, "
-        "{c.fractal.profiles} profiles, {c.rolling.tracks} tracks; boundary elements {c.fractal.realisations} "
-        "surfaces, {c.rolling.realisations} strips, whose linear force takes most of their scatter away; these are "
-        "periodic, which closed forms are not. Cost: seconds of one realisation, methods in turns, one thread, median "
-        "and quartiles; claims compare medians with their 95 % intervals at the worst error of a chart; set-up "
+        "Each method is a curve along a parameter: cells, springs, residual. Error: relative to closed forms where "
+        "there are any; elsewhere to the two finest grids of boundary elements on the same surfaces, extrapolated to "
+        "zero cell size. The last step of this extrapolation is the uncertainty of the reference, and errors below it "
+        "are treated as equal to it. A setting is chosen by its error, that of a finer setting where this is larger; "
+        "the 95 % interval (sample and reference) gives its verdict. Tolerances: 10, 3 and 1 %, or 3 and 1 dB. Within "
+        "each, the cheapest setting of a method is compared with the cheapest of boundary elements, whether coarser, "
+        "looser or extrapolated. Errors of the two finest grids are steps of their own extrapolation. Spectra: root "
+        "mean square, over octaves, of level differences. Springs have roughness of their own, {c.fractal.profiles} "
+        "profiles, {c.rolling.tracks} tracks; boundary elements {c.fractal.realisations} surfaces, "
+        "{c.rolling.realisations} strips, whose linear force takes most of their scatter away; these are periodic, "
+        "which closed forms are not. Cost: seconds of one realisation, methods in turns, one thread, median and "
+        "quartiles; claims compare medians with their 95 % intervals at the worst tolerance of a chart; set-up "
         "(operators, plans, a first drawing) is timed apart. Extrapolated boundary elements cost both grids. Fig. "
         "14.4: {c.cost.wheels} wheels over {c.cost.scene.distance:g} m, on springs or with boundary elements at each "
         "time step."
     ),
     series=series,
     tables=tables,
-    printed=(FASTER, WITHIN, WITHOUT, COST_OF_STEPS),
+    printed=(WITHIN, WITHOUT, COST_OF_STEPS),
     claims=(
         Claim(quantity=TIME, printed=times_source).saying(
-            "At each error springs are the cheapest method, or boundary elements where springs do not reach it.",
-            short="Springs, or boundary elements below their error, are the cheapest method",
+            "Springs are the cheapest method within each tolerance that they reach, boundary elements elsewhere.",
+            short="Springs are the cheapest method within the tolerances that they reach, boundary elements elsewhere",
             key="cheapest",
         ),
         Claim(quantity=COST, differ=True, whose=Whose.BOOK, printed=hours).saying(
@@ -274,7 +312,8 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("precision", claims=(0,)).of(f"Error against seconds, a chart a quantity without a closed form. {MARKS}"),
+        Chart("precision", claims=(0,)).of(f"Error against seconds, punch of Fig. 14.1 and rolling wheel. {MARKS}"),
+        Chart("precision-interface").of(f"Error against seconds, punches with a roll-off. {MARKS}"),
         Chart("precision-others").of(f"Error against seconds, a chart a quantity with a closed form. {MARKS}"),
     ),
 )

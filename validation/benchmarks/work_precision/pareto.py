@@ -1,6 +1,8 @@
-"""Which method is the cheapest for an error: the errors, the Pareto front, and the cheapest within a tolerance.
+"""Which method is the cheapest within a tolerance: the errors, the Pareto front, the cheapest setting of each method.
 
-An error is relative to what is exact, or to the finest grids of the same roughness, with its interval.
+An error is relative to what is exact, or to the finest grids of the same roughness. It is an estimate with the half
+width of its 95 % interval: settings are chosen by the estimate, and the interval gives the verdict. So a method is not
+dearer because its errors were sampled less.
 """
 
 import math
@@ -11,15 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.evidence import Table
+from validation.analysis.evidence import Table, Verdict, table_of, verdict_of
 from validation.analysis.quantity import Quantity
 from validation.analysis.statistics import Interval, jackknife_error, student
 from validation.benchmarks.timing import ALONE, FINISHED, OUT_OF_RANGE, Configuration, configurations_of
 from validation.benchmarks.work_precision.problem import (
+    BEM_METHOD,
     ELEMENTS,
     EXTRAPOLATED,
-    FILTER_3D,
-    SPRINGS,
     ChartProblem,
     ChartQuantity,
     values_of,
@@ -28,8 +29,10 @@ from validation.engine.engine import FloatArray, Outcome
 from validation.engine.realisations import NotConvergedError
 from validation.simulation.method import Values
 
-TOLERANCES = (0.3, 0.1, 0.03, 0.01, 0.001)
-"""That are asked for, relative; as levels 20 lg (1 + tolerance) dB."""
+TOLERANCES = {"%": (0.1, 0.03, 0.01), "dB": (3.0, 1.0)}
+"""Those of the reader, by the unit of the error: relative, or in dB."""
+SHOWN = {"%": 100.0, "dB": 1.0}
+"""From errors to numbers in their unit."""
 NAN = math.nan
 
 
@@ -40,7 +43,7 @@ class Point:
     unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; method,
     parameter, value: of the configuration; is_reference: whether it is the reference itself; is_model: whether it has
     no surfaces of the reference, so that no parameter brings its error to zero; status: "finished", or why not; error,
-    half_width: with the interval of the sample; finer: the largest upper end of an error that finer settings leave, see
+    half_width: of the 95 % interval of the sample; finer: the largest error that finer settings leave, see
     `monotone_envelope`; over: the answer over the reference; seconds: quartiles and median, low, middle, high; runs:
     behind them; setup: seconds.
     """
@@ -69,8 +72,17 @@ class Point:
 
     @property
     def rank(self) -> float:
-        """The upper end of its error; never below the uncertainty of the reference, nor what finer settings leave."""
-        return max(self.error + self.half_width, self.band, self.finer)
+        """Its error; never below the uncertainty of the reference, nor below what finer settings leave."""
+        return max(self.error, self.band, self.finer)
+
+    @property
+    def seconds_interval(self) -> tuple[float, float]:
+        """Ends of the 95 % interval of the median time [s]."""
+        return self.seconds[1] * (1 - _uncertainty(self)), self.seconds[1] * (1 + _uncertainty(self))
+
+    def verdict(self, tolerance: float) -> Verdict:
+        """Of its whole interval, to which the sample and the reference contribute; tolerance: in the unit of errors."""
+        return verdict_of(self.error, self.half_width + self.band, tolerance)
 
     @property
     def setting(self) -> str:
@@ -78,7 +90,7 @@ class Point:
 
 
 def monotone_envelope(points: Sequence[Point]) -> list[Point]:
-    """Each point with the largest upper bound of the error that its method has at finer settings, which come later."""
+    """Each point with the largest error that its method has at finer settings, which come later."""
     worst: dict[str, float] = {}
     envelope = []
     for point in reversed(points):
@@ -95,8 +107,8 @@ def seconds(point: Point) -> float:
 def front(points: Sequence[Point]) -> list[Point]:
     """Those that nothing beats in both error and cost, from cheap to dear; of equals the first.
 
-    Ranked by the upper ends of errors; what lies below the band of the reference is as good as its edge. The reference
-    itself, and who has not finished, takes no part.
+    Ranked by errors; what lies below the band of the reference is as good as its edge. The reference itself, and what
+    has not finished, takes no part.
     """
     candidates = [p for p in points if p.finished and not p.is_reference]
     best: list[Point] = []
@@ -106,25 +118,17 @@ def front(points: Sequence[Point]) -> list[Point]:
     return best
 
 
-def in_unit_of_error(tolerance: float, unit: str) -> float:
-    """20 lg (1 + tolerance) of levels."""
-    return 20 * math.log10(1 + tolerance) if unit == "dB" else tolerance
-
-
 def cheapest(points: Sequence[Point], tolerance: float) -> Point | None:
-    """The cheapest point within a relative tolerance; None where there is none, or the reference is too uncertain."""
-    within = [point for point in front(points) if point.rank <= in_unit_of_error(tolerance, point.unit)]
-    return within[0] if within else None
+    """The cheapest point whose error is within a tolerance, in the unit of errors; None where there is none.
+
+    Nothing is within a tolerance that the uncertainty of the reference exceeds.
+    """
+    within = [p for p in points if p.finished and not p.is_reference and p.rank <= tolerance]
+    return min(within, key=seconds, default=None)
 
 
-def reason_if_none(points: Sequence[Point], tolerance: float) -> str:
-    """Return "none", or that the reference is less certain than the tolerance."""
-    limit = in_unit_of_error(tolerance, points[0].unit)
-    return "the reference cannot tell" if points[0].band > limit else "none"
-
-
-FASTER = Quantity("times_faster_than_boundary_elements_at_equal_error")
-REDUCED = (*SPRINGS, FILTER_3D)
+CHEAPEST_SETTING = Quantity("cheapest_setting_of_each_method_within_a_tolerance")
+FACTOR = "times faster than BEM"
 NOTCH = 1.57
 """Half of the 95 % interval of a median, over the interquartile range over sqrt(runs).
 
@@ -132,43 +136,47 @@ Source: McGill, Tukey, Larsen, Am. Stat. 32 (1978) 12.
 """
 
 
-def faster(charts: Sequence[Sequence[Point]]) -> Table:
-    """A row a chart and reduced model: T_BEM / T with its 95 % interval, at the least error that the model reaches.
+def cheapest_settings(charts: Sequence[Sequence[Point]]) -> Table:
+    """A row a chart, tolerance and method: its cheapest setting whose error is within the tolerance.
 
-    T is the time of the cheapest setting with that error e, T_BEM of the cheapest boundary elements whose upper end of
-    the error is at most e: both are measured, nothing lies between grids. "error" and "error of boundary elements" are
-    these upper ends, in the unit.
+    error: with the half-widths that the sample and the reference leave, in the unit; verdict: by all of its interval;
+    time: median of one realisation, with its 95 % interval; FACTOR: T_BEM / T with its interval, of the cheapest
+    boundary elements within the same tolerance: both are measured, nothing lies between settings. A method without
+    such a setting has its closest one, and no factor.
     """
-    rows = [row for chart in charts for row in _speed_up_rows(chart)]
-    return Table(FASTER, {name: [row[name] for row in rows] for name in (rows[0] if rows else ("scene",))})
+    return table_of(CHEAPEST_SETTING, [row for chart in charts for row in _rows_of_chart(chart)])
 
 
-def _speed_up_rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
-    """Yield a row for each reduced model whose least error boundary elements reach too."""
+def _rows_of_chart(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
+    """Yield a row for each tolerance and method; boundary elements are one method, however they are coarsened."""
     candidates = [point for point in chart if point.finished and not point.is_reference]
-    elements = [point for point in candidates if point.method in ELEMENTS]
-    for method in REDUCED:
-        model_front = front([point for point in candidates if point.method == method])
-        other = cheapest_as_close(model_front[-1], elements) if model_front else None
-        if other is None:
-            continue
-        ratio, scale = time_over(other, model_front[-1]), 1.0 if other.unit == "dB" else 100.0
-        yield {
-            **{"scene": other.scene, "quantity": other.quantity, "model": method, "unit": other.unit},
-            **{"error": scale * model_front[-1].rank, "error of boundary elements": scale * other.rank},
-            **{"seconds": seconds(model_front[-1]), "seconds of boundary elements": seconds(other)},
-            **{
-                "times faster": ratio.value,
-                "from": ratio.value - ratio.half_width,
-                "to": ratio.value + ratio.half_width,
-            },
-        }
+    groups: dict[str, list[Point]] = {}
+    for point in candidates:
+        groups.setdefault(BEM_METHOD if point.method in ELEMENTS else point.method, []).append(point)
+    for tolerance in TOLERANCES[chart[0].unit]:
+        elements = cheapest(groups.get(BEM_METHOD, []), tolerance)
+        for method, points in groups.items():
+            chosen = cheapest(points, tolerance)
+            factor = time_over(elements, chosen) if elements and chosen and method != BEM_METHOD else None
+            closest = min(reversed(points), key=lambda point: point.rank)
+            yield _row_of_setting(method, chosen or closest, tolerance, bool(chosen), factor)
 
 
-def cheapest_as_close(point: Point, candidates: Sequence[Point]) -> Point | None:
-    """Return the cheapest candidate whose upper end of the error is at most that of the point, None without one."""
-    close = [candidate for candidate in candidates if candidate.rank <= point.rank]
-    return min(close, key=seconds, default=None)
+def _row_of_setting(
+    method: str, point: Point, tolerance: float, meets: bool, factor: Interval | None
+) -> dict[str, object]:
+    """Return the row of a setting; factor: T_BEM / T, None without one."""
+    scale, (low, high) = SHOWN[point.unit], point.seconds_interval
+    ratio, half = (factor.value, factor.half_width) if factor else (NAN, NAN)
+    of_error = {"error": point.error, "± sample": point.half_width, "± reference": point.band}
+    return {
+        **{"scene": point.scene, "quantity": point.quantity, "unit": point.unit, "tolerance": scale * tolerance},
+        **{"method": method, "setting": point.setting if method != BEM_METHOD else f"{point.method}: {point.setting}"},
+        **{name: scale * value for name, value in of_error.items()},
+        **{"verdict": point.verdict(tolerance).value, "a setting within": meets},
+        **{"time [s]": seconds(point), "time from [s]": low, "time to [s]": high},
+        **{FACTOR: ratio, "factor from": ratio - half, "factor to": ratio + half},
+    }
 
 
 def time_over(numerator: Point, denominator: Point) -> Interval:

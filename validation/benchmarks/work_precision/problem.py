@@ -1,7 +1,7 @@
 """The problems of the charts: quantities, configurations, references, and the measurement of all of them.
 
-A sphere and a square punch, whose answers are known, the punch of Fig. 14.1, and a wheel that rolls over isotropic
-roughness. Units: E* = 1 and a length of what is pressed; of the wheel a = d = E* = 1, so R = 1, and Hertz has 4/3.
+A sphere and a square punch, whose answers are known, the punch of Fig. 14.1, the same with a roll-off, and a wheel that
+rolls over isotropic roughness. Units: E* = 1 and a length of what is pressed; of the wheel a = d = E* = R = 1.
 """
 
 import math
@@ -36,7 +36,7 @@ from validation.simulation.method import Method, Prepared, Resolution, Result, S
 from validation.simulation.model import Model
 from validation.simulation.pressed import FIXED_AREA_RESIDUAL, press_on_grid, press_on_springs
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, crop_to_reach
-from validation.simulation.rough_punch import PunchRoughness
+from validation.simulation.rough_punch import PunchRoughness, RolledOffRoughness
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
@@ -45,6 +45,8 @@ CLOSED, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_3D
 MDR, MDR_ROLLING = model_names.SPRINGS, model_names.SPRINGS_ROLLING
 BEM, LOOSE, EXTRAPOLATED = "BEM, finer cells", "BEM, looser residual", "BEM, extrapolated"
 SPRINGS, ELEMENTS = (MDR, MDR_ROLLING), (BEM, LOOSE, EXTRAPOLATED)
+BEM_METHOD = model_names.BEM
+"""All of these as one method, whose settings they are."""
 ROUNDING = 1e-12
 """What a closed form leaves open."""
 
@@ -77,7 +79,8 @@ def mean_of(name: str, value: str = "", **settings: Any) -> ChartQuantity:
     value = value or name
 
     def log(values: Values) -> FloatArray:
-        return np.asarray(np.log(np.mean(values[value], axis=0, keepdims=True)))
+        with np.errstate(divide="ignore"):  # springs that all touch have no gap
+            return np.asarray(np.log(np.mean(values[value], axis=0, keepdims=True)))
 
     return ChartQuantity(name=name, log=log, needs=(value,), **settings)
 
@@ -328,7 +331,7 @@ class PunchProblem(ExactProblem):
         return scalars(stiffness=point.stiffness)
 
 
-ROUGH_GRIDS = Grids(cells=(24, 32, 64, 128), fixed=64)
+ROUGH_GRIDS = Grids(cells=(96, 128, 192, 256, 512), fixed=128)
 
 
 def log_deviation(values: Values) -> FloatArray:
@@ -347,17 +350,17 @@ class RoughPunchProblem(PressedProblem):
     """
 
     name: ClassVar = "fractal punch"
-    quantities: ClassVar = (
+    quantities: ClassVar[tuple[ChartQuantity, ...]] = (
         mean_of(MEAN_STIFFNESS, "stiffness"),
         ChartQuantity(name=RELATIVE_DEVIATION, log=log_deviation, needs=("stiffness",)),
     )
     hurst: float = 0.7
-    waves: int = 15
+    waves: int = 64
     force: float = 0.1
     realisations: int = 16
     profiles: int = 120
     grids: Grids = ROUGH_GRIDS
-    springs: tuple[float, ...] = (24, 32, 64, 128, 256, 512)
+    springs: tuple[float, ...] = (96, 128, 256, 512, 1024)
     seed: int = 150
 
     @property
@@ -386,6 +389,37 @@ class RoughPunchProblem(PressedProblem):
 
     def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
         return scalars(stiffness=point.stiffness)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RolledOffPunchProblem(RoughPunchProblem):
+    """The punch with a plateau of its spectrum up to `roll_off` waves on a side, under 10 % contact by default."""
+
+    name: ClassVar = "punch with a roll-off"
+    quantities: ClassVar = (mean_of(MEAN_STIFFNESS, "stiffness"), mean_of("contact area", "area"), mean_of("gap"))
+    waves: int = 16
+    roll_off: int = 4
+    force: float = 2.36
+    grids: Grids = Grids(cells=(24, 32, 48, 64, 128), fixed=32)
+    springs: tuple[float, ...] = (24, 32, 64, 128, 256)
+    seed: int = 152
+
+    @property
+    def roughness(self) -> RolledOffRoughness:
+        return RolledOffRoughness(hurst=self.hurst, waves=(1, self.waves), roll_off=self.roll_off, seed=self.seed)
+
+    @property
+    def served(self) -> tuple[str, ...]:
+        return ()  # no model has a roll-off
+
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
+        """The mean gap is the mean displacement less the approach: heights have no mean."""
+        gap = contact.problem.half_space.displacement(contact.pressure).mean() - contact.approach
+        return {**super().read(contact, fixed), **scalars(area=contact.area, gap=gap)}
+
+    def read_springs(self, point: mdr.LoadPoint[float]) -> Values:
+        """Of length one. Springs have no contact area."""
+        return {**super().read_springs(point), **scalars(gap=point.force - point.approach)}
 
 
 SMOOTH = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
@@ -448,8 +482,8 @@ class RollingProblem(ChartProblem):
 
     @property
     def bands(self) -> Bands:
-        """One-third octaves within the band of the roughness."""
-        return Bands.around(np.pi, 1.0, self.last).on(self.length)
+        """Octaves from the first one-third octave with waves of the roughness on, as those of the force spectrum."""
+        return Bands(Bands.around(np.pi, 2 ** (-1 / 3), self.last).edges[::3]).on(self.length)
 
     @property
     def rough_strip(self) -> RoughStrip:

@@ -87,10 +87,15 @@ def notes(result: Outcomes) -> list[str]:
         f"{100 * (mean.value.half_width + mean.grid):.1f} % per decade of bandwidth.",
         f"At q_max/q_min = {waves} MDR's relative deviation is {_from_to(ratios)} that of boundary elements.",
     ]
-    uncoupled = [ratio.value for pair in pairs for ratio in deviations.without_coupling(*pair).values()]
-    if uncoupled:
-        times = _from_to(uncoupled)
-        sentences += [f"Without elastic coupling, the deviation of springs along a line is {times} that over an area."]
+    for hurst in case.hursts:
+        at = [(hurst, level) for level in range(len(case.forces))]
+        uncoupled = [ratio.value for pair in at for ratio in deviations.without_coupling(*pair).values()]
+        coupled = [deviations.ratio(*pair)[widest].value.value for pair in at]
+        if uncoupled:
+            sentences.append(
+                f"At H = {hurst:g} it is {_from_to(coupled)} that of BEM; without elastic coupling springs along a "
+                f"line have {_from_to(uncoupled)} the deviation of springs over an area: the rest is elastic coupling."
+            )
     return sentences
 
 
@@ -116,9 +121,10 @@ STUDY = Study(
         "Theory: waves beyond q_max are as high as h (q_min/q_max)^H, and shift both load curves by no more than "
         "their highest point (Barber 2003). So at one Fbar both stiffnesses have a limit for wide bands, and the "
         "ratio of their deviations tends to a constant. It holds where these waves are low beside the depth of the "
-        "contact, q_max/q_min > (kbar/Fbar)^(1/H). The constant is that of the highest ground of a line beside that of "
-        "an area: dotted, springs along a line over springs over an area, without elastic coupling, whose contact is "
-        "k/E* long or wide, k that of boundary elements."
+        "contact, q_max/q_min > (kbar/Fbar)^(1/H). Of the highest points of a line and of an area alone, without "
+        "elastic coupling, the ratio would be the dotted one, of springs along a line over springs over an area, whose "
+        "contact is k/E* long or wide, k that of boundary elements; what differs from it is elastic coupling, and "
+        "depends on H."
     ),
     series=series,
     claims=(

@@ -19,7 +19,7 @@ from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, j
 from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.engine.realisations import require_realisations
 from validation.simulation import rolling_strip
-from validation.simulation.model_names import FILTER_3D
+from validation.simulation.model_names import FILTER_3D, SPRINGS_ROLLING
 from validation.simulation.rolling_strip import (
     HERTZ,
     RoughStrip,
@@ -106,10 +106,11 @@ class ForceSpectrum:
         count = strips if cells == self.cells else min(self.refined, strips)
         return self.rough_strip(height).strips(cells, 1e-4 * height, count)
 
-    def tracks_of(self, height: float) -> Tracks:
+    def tracks_of(self, height: float, model: str) -> Tracks:
+        """On springs, by Geike's rule or with the rolling-equivalent spectrum."""
         return Tracks(
             scene=self.rough_strip(height),
-            input_spectrum="geike",
+            input_spectrum="geike" if model == SPRINGS else "rolling",
             realisations=self.tracks,
             springs=self.springs,
             bands=self.bands,
@@ -121,7 +122,7 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> Outcomes:
     grids = {BEM: case.cells, REFINED: 2 * case.cells}
     groups = {(name, h): case.strips_of(h, cells) for name, cells in grids.items() for h in case.heights}
     strips, unconverged = rolling_strip.roll_strips(groups, engine)
-    tracks = {(SPRINGS, h): case.tracks_of(h) for h in case.heights}
+    tracks = {(model, h): case.tracks_of(h, model) for model in (SPRINGS, SPRINGS_ROLLING) for h in case.heights}
     levels = {(name, h): strip_levels(outcome, 1 / grids[name], case.bands) for (name, h), outcome in strips.items()}
     rolled = dict(zip(tracks, engine.map(rolling_strip.roll_tracks, list(tracks.values())), strict=True))
     return Outcomes(case, {**levels, **rolled}, unconverged)
@@ -227,7 +228,8 @@ def levels_on_track(case: ForceSpectrum, spectrum: Callable[..., FloatArray]) ->
 
 def _levels(result: Outcomes, height: float) -> Iterator[Series]:
     """In octaves each model over boundary elements, which are over linear theory on the same surfaces."""
-    case, springs = result.case, result[SPRINGS, height]["level"] / height**2
+    case = result.case
+    springs, rolling = (result[model, height]["level"] / height**2 for model in (SPRINGS, SPRINGS_ROLLING))
     octaves = octaves_of(case.bands, case.spectrum)
 
     def summed(levels: FloatArray) -> FloatArray:
@@ -238,6 +240,7 @@ def _levels(result: Outcomes, height: float) -> Iterator[Series]:
     models = {
         LINEAR_1D: Estimates.exact(np.log(summed(book) / summed(exact))),
         SPRINGS: Estimates.ratios(summed(springs), summed(exact)),
+        SPRINGS_ROLLING: Estimates.ratios(summed(rolling), summed(exact)),
         LINEAR_3D: Estimates.exact(np.zeros(len(octaves))),
     }
     in_decibels = partial(Series, where=at(case, height), along=Q, scale=POWER_DECIBEL, unit="dB")

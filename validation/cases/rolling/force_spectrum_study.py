@@ -34,6 +34,7 @@ from validation.cases.rolling.force_spectrum import (
     series,
 )
 from validation.simulation import model_needed
+from validation.simulation.model_names import SPRINGS_ROLLING
 from validation.simulation.rolling_strip import ASSUMED
 from validation.simulation.track_spectrum import INPUT_NAMES
 
@@ -48,14 +49,15 @@ STUDY = Study(
         "{c.last:g}, h_rms / d = {c.heights:g}. Boundary elements: {c.strips} surfaces {c.length:g} a long "
         "({c.rough_strips} from h/d = 0.3 on), {c.cells} cells to a contact radius; {c.refined} of them again with "
         "twice as many. Values are extrapolated to first order; the grid leaves half of the extrapolation and its "
-        "interval. Springs: {c.tracks} tracks as long, with Geike's spectrum. Linear theory: (14.12) in 1D, and the "
-        "same filter on the surface in 3D, both by quadrature. Boundary elements are taken over linear theory on the "
-        "same surfaces, which removes most of the scatter. Levels in octaves, from the longest wave on, are judged by "
-        "their root mean square. Input spectra of springs for one surface are Geike's; the line trace, which a "
-        "measured line has; and the rolling-equivalent spectrum C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, "
-        "s² = q² + k². They are judged in linear theory on six spectra. From the levels of the force of boundary "
-        "elements in one-third octaves, (14.14) and the filter in 3D are read backwards, the latter by the heights "
-        f"of all bands together that have these levels, with C_2D falling as q^-{ASSUMED:g} within a band. "
+        "interval. Springs: {c.tracks} tracks as long, with Geike's spectrum, and as many with the rolling-equivalent "
+        "spectrum. Linear theory: (14.12) in 1D, and the same filter on the surface in 3D, both by quadrature. "
+        "Boundary elements are taken over linear theory on the same surfaces, which removes most of the scatter. "
+        "Levels in octaves, from the longest wave on, are judged by their root mean square. Input spectra of springs "
+        "for one surface are Geike's; the line trace, which a measured line has; and the rolling-equivalent spectrum "
+        "C_1D(q) = ∫ (1 + q²a²) / (1 + s²a²) C_2D(s) dk, s² = q² + k². They are judged in linear theory on six "
+        "spectra. From the levels of the force of boundary elements in one-third octaves, (14.14) and the filter in 3D "
+        "are read backwards, the latter by the heights of all bands together that have these levels, with C_2D falling "
+        f"as q^-{ASSUMED:g} within a band. "
         + SLOPE_COUNTS
         + "; √2 times that is the rms gradient g of the surface, and the rms slope of Geike's profile."
     ),
@@ -90,6 +92,11 @@ STUDY = Study(
             "On the rolling-equivalent spectrum (14.12) has the octave levels of linear theory in three dimensions.",
             short="On the rolling-equivalent spectrum (14.12) agrees with linear theory in 3D",
             key="rolling-spectrum",
+        ),
+        Claim(quantity=RMS_LEVEL, model=SPRINGS_ROLLING + OVER, along=SLOPE, printed=decibels_rms).saying(
+            "Springs on the rolling-equivalent spectrum have the octave levels of boundary elements.",
+            short="Springs on the rolling-equivalent spectrum agree with boundary elements",
+            key="rolling-equivalent-springs",
         ),
         Claim(quantity=(RMS_FORCE, MEAN_FORCE), model=SPRINGS + OVER, along=SLOPE, printed=per_cent).saying(
             "At a given approach springs have the mean and the rms force of boundary elements.",
@@ -132,7 +139,7 @@ STUDY = Study(
                 Curve(INPUT_LEVEL, by=("model",))
             ),
         ),
-        Chart("rolling-backwards", claims=(4,)).of(
+        Chart("rolling-backwards", claims=(5,)).of(
             "Mean square height of the waves in one-third octaves without a zero of sin(q a), found from the force of "
             "boundary elements over the true one, by filter; 95 % of sample and grid. Shaded: within 1 dB.",
             IN_BANDS("roughness found over true [dB]", facet=HEIGHT, ylim=(-14.0, 8.0)).of(

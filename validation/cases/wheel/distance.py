@@ -19,7 +19,7 @@ from validation.engine.engine import Outcome
 from validation.engine.realisations import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
-from validation.theory.rolling import RollingWheel, break_exponent
+from validation.theory.rolling import RollingWheel, acceleration_over_force, break_exponent, over_the_resonance
 
 SHORT = replace(TABLE, distance=0.16)
 MIN_JUMP, MIN_PERIODS = 4.0, 5.0
@@ -152,6 +152,7 @@ BY_KIND = Quantity("A_by_contact_and_record")
 UP_TO_JUMP = Quantity("A_of_regions_1_and_2")
 SHORT_WAVES = Quantity("A_over_short_waves")
 OVER = Quantity("level_over_the_second_order")
+OF_RESONANCE = Quantity("integral_over_the_resonance_m_s²_²", "integral over the resonance [(m/s²)²]")
 CONTRAST = Quantity("contrast_of_region_2")
 SECOND_ORDER = "second order, closed form"
 H_OVER_D, RECORD, DAMPING, MAXIMUM = "h/d", "record", "damping", "maximum of cos²(q a)"
@@ -187,7 +188,11 @@ RECORDS = {
     BOOK: Record(FROM_REST),
 }
 """Those without leakage first."""
+UNDEFINED = f"{PERIODIC}, undamped", FIRST
+"""A resonance of no width, of which lines beside it tell nothing but how far off they are."""
 WITHOUT_LEAKAGE = (PERIODIC, f"{PERIODIC}, undamped", HANN)
+WIDTH = 2**0.25
+"""Over the resonance to both sides: where lines of a periodic motion tell the force that excites it."""
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -241,6 +246,8 @@ def _regions(result: Outcomes) -> Iterator[Series]:
             omega, density = ensembles.in_sixths(outcome["omega"], mean, *ends)
             yield density_of(BY_KIND, f"{model}, {name}", density, at=omega)
         for region, band in bands.items():
+            if (name, region) == UNDEFINED:
+                continue
             for model in (SPRINGS, LINEAR):
                 level = Estimates.ratios(record.of(result, band, model), np.ones(1))
                 yield decibels(OF_REGION, model, level, where={RECORD: name, "region": region})
@@ -248,6 +255,8 @@ def _regions(result: Outcomes) -> Iterator[Series]:
     for name in WITHOUT_LEAKAGE:
         record = RECORDS[name]
         for region in (FIRST, PLATEAU):
+            if (name, region) == UNDEFINED:
+                continue
             linear, of_springs = (record.of(result, bands[region], model) for model in (LINEAR, SPRINGS))
             # of a linear contact that repeats its motion nothing can be elsewhere
             margin = OF_SHARE if name == HANN else replace(OF_SHARE, role=Role.IDENTITY)
@@ -272,30 +281,55 @@ def second_order(scene: RollingScene, omega: FloatArray) -> FloatArray:
 
 
 def _second_order(result: Outcomes) -> Iterator[Series]:
-    """Contrast of region 2 over short waves; regions 1 and 2 by height, and without damping; spectra up to the jump."""
+    """Contrast of region 2 over short waves; regions 1 and 2 by height, 2 without damping too; spectra to the jump."""
     case = result.case
     yield from _contrasts(case.ensemble(STEADY, short=True).scene, result["short waves"])
     steady = [(case.ensemble(STEADY, h), result[STEADY if h == 1 else (STEADY, h)]) for h in case.heights]
+    family = 2 * len(steady) + 2
+    for ensemble, outcome in steady:
+        yield from _resonance(ensemble.scene, outcome, family)
     for ensemble, outcome in (*steady, (case.ensemble(UNDAMPED), result[UNDAMPED])):
-        yield from _over_second_order(ensemble.scene, outcome, 2 * len(steady) + 3)
+        yield from _over_second_order(ensemble.scene, outcome, family)
+
+
+def _resonance(scene: RollingScene, outcome: Outcome, family: int) -> Iterator[Series]:
+    """Region 1, an integral over the resonance: of springs by the force that its lines tell, and in closed form.
+
+    A periodic motion has lines, of which none may be on the resonance: A over the gain of each is the spectrum of the
+    force, which is level over the resonance, and its integral is that through the whole of the resonance.
+    """
+    omega, same = outcome["omega"], {name: getattr(scene, name) for name in ("eigenfrequency", "mass", "damping")}
+    near = np.abs(np.log(omega / scene.eigenfrequency)) < math.log(WIDTH)
+    force = (outcome["plain"][:, near] / acceleration_over_force(omega[near], **same)).mean(axis=1)
+    q_max = scene.cutoff / scene.rolling_speed
+    theory = theory_of(scene).over_resonance(ensembles.roughness(scene), q_max=q_max)
+    region = {"region": FIRST, DAMPING: _damping_of(scene), **at_height(scene)}
+    level = Estimates.ratios(force * over_the_resonance(**same), np.full(1, theory))
+    yield decibels(OVER, f"{SPRINGS}, integral", level, where=region, family=family, margin=OF_SECOND_ORDER)
+    for model, value in ((SPRINGS, float(force.mean()) * over_the_resonance(**same)), (SECOND_ORDER, theory)):
+        yield Series(OF_RESONANCE, model, (value,), where=region)
+
+
+def _damping_of(scene: RollingScene) -> str:
+    return f"{100 * scene.damping:g} % of critical" if scene.damping else "none"
 
 
 def _over_second_order(scene: RollingScene, outcome: Outcome, family: int) -> Iterator[Series]:
     omega, bands = outcome["omega"], ensembles.regions_of(scene)
     theory, place = second_order(scene, omega), at_height(scene)
-    damping = {DAMPING: f"{100 * scene.damping:g} % of critical" if scene.damping else "none"}
-    for region, edges in ((FIRST, np.array(bands[FIRST])), (PLATEAU, one_third_octaves(*bands[PLATEAU]))):
-        levels, reference = band_levels(omega, outcome["plain"].T, edges).T, band_levels(omega, theory, edges)
-        yield decibels(
-            OVER,
-            SPRINGS,
-            Estimates.ratios(levels, reference),
-            where={"region": region, **damping, **place},
-            along=ensembles.OMEGA,
-            at=np.sqrt(edges[1:] * edges[:-1]),
-            family=family,
-            margin=OF_SECOND_ORDER,
-        )
+    damping = {DAMPING: _damping_of(scene)}
+    edges = one_third_octaves(*bands[PLATEAU])
+    levels, reference = band_levels(omega, outcome["plain"].T, edges).T, band_levels(omega, theory, edges)
+    yield decibels(
+        OVER,
+        SPRINGS,
+        Estimates.ratios(levels, reference),
+        where={"region": PLATEAU, **damping, **place},
+        along=ensembles.OMEGA,
+        at=np.sqrt(edges[1:] * edges[:-1]),
+        family=family,
+        margin=OF_SECOND_ORDER,
+    )
     lines = omega[omega < 0.99 * scene.jump]
     drawn = partial(density_of, UP_TO_JUMP, where={**damping, **place}, at=lines)
     yield drawn(SPRINGS, outcome["plain"].mean(axis=0)[: lines.size])

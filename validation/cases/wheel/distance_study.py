@@ -7,7 +7,7 @@ from validation.analysis.chart import by_model
 from validation.analysis.evidence import Whose
 from validation.analysis.number_text import share
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
-from validation.cases.wheel import distance
+from validation.cases.wheel import distance, ensembles
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
 from validation.cases.wheel.ensembles import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
 from validation.simulation import model_needed
@@ -46,19 +46,26 @@ SHORT = Panel(OMEGA, DENSITY, log="y").of(*by_model(distance.SHORT_WAVES, {SECON
 
 
 def notes(result: Outcomes) -> Sequence[str]:
-    """What the record of the book adds to regions 1 and 2."""
-    bands, book = regions_of(result.case.scene), distance.RECORDS[BOOK]
-    (first, plateau), steady, linear = (
-        [record.of(result, bands[region], model).mean() for region in (FIRST, PLATEAU)]
-        for record, model in ((book, SPRINGS), (distance.RECORDS[PERIODIC], SPRINGS), (book, LINEAR))
+    """What region 1 is, and what the record of the book adds to regions 1 and 2."""
+    case, bands, book = result.case, regions_of(result.case.scene), distance.RECORDS[BOOK]
+    scene = case.ensemble(distance.STEADY).scene
+    integral = distance.theory_of(scene).over_resonance(
+        ensembles.roughness(scene), q_max=scene.cutoff / scene.rolling_speed
     )
+    (first, plateau), linear = (
+        [book.of(result, bands[region], model).mean() for region in (FIRST, PLATEAU)] for model in (SPRINGS, LINEAR)
+    )
+    steady = distance.RECORDS[PERIODIC].of(result, bands[PLATEAU], SPRINGS).mean()
     return (
-        f"From rest, undamped and without a window, as in the book, region 1 has {first / steady[0]:.3g} times the "
-        f"power of the steady state, and the linear contact has {100 * linear[0] / first:.3g} % of that: free "
-        "vibration since the start, which nothing damps.",
-        f"Region 2 has {plateau / steady[1]:.3g} times the power of the steady state, and the linear contact has "
+        "Region 1 of a steady state is an integral over the resonance, of the second order: ∫ A df = A_F₂(ω_eigen) "
+        f"ω_eigen / (8 ζ M²) = {integral:.3g} (m/s²)² at ζ = {100 * case.damping:g} %. It goes as 1/ζ, and without "
+        "damping it has no value.",
+        "From rest, undamped and without a window, as in the book, the linear contact has "
+        f"{100 * linear[0] / first:.3g} % of the power of region 1: free vibration since the start, which nothing "
+        "damps.",
+        f"Region 2 has {plateau / steady:.3g} times the power of the steady state, and the linear contact has "
         f"{100 * linear[1] / plateau:.3g} % of that: it leaks from region 3 through the ends of a record of "
-        f"{result.case.scene.length:.3g} m.",
+        f"{case.scene.length:.3g} m.",
     )
 
 
@@ -74,7 +81,9 @@ STUDY = Study(
         "all it has elsewhere leaks through the ends of the record. The second order in closed form: at the ends of "
         "the contact the heights over the wheel in its linear motion, u and v, lengthen the contact, F₂ = E* R / (4a) "
         "(u² + v²); for Gaussian heights its spectrum is a convolution of the band with itself, and the damped wheel "
-        "is its resonator. It has no free parameter. Region 1 is measured from 0.5 to 2 ω_eigen, region 2 from there "
+        "is its resonator. It has no free parameter. Region 1 of the second order is the integral over the resonance, "
+        "A_F₂(ω_eigen) ω_eigen / (8 ζ M²); of springs, the lines about ω_eigen over their gain are the force that "
+        "excites it. Shares of region 1 are from 0.5 to 2 ω_eigen, region 2 is measured from there "
         "to 0.8 q_min v₀, region 4 from 1.3 to 2.6 q_max v₀, where its floor stands alone. Short waves: {c.short:g} m "
         "and less, h₀ = {c.rms:g} m."
     ),
@@ -118,7 +127,7 @@ STUDY = Study(
             SHORT,
         ),
     ),
-    printed=(distance.OF_REGION,),
+    printed=(distance.OF_REGION, distance.OF_RESONANCE),
     notes=notes,
 )
 CASE = Case(

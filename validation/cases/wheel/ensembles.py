@@ -19,6 +19,7 @@ from validation.simulation import wheel_features
 from validation.theory import rolling as rolling_theory
 
 TABLE = load_scene_with_track("table_14_1")
+Spectrum1D = Callable[[FloatArray], FloatArray]
 decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 PEAK, JUMP, SLOPE, PERIOD = wheel_features.NAMES
@@ -66,11 +67,13 @@ class Spectrum:
         return linear_spectrum(self.scene, self.omega)
 
 
-def linear_spectrum(scene: RollingScene, omega: FloatArray) -> FloatArray:
-    """A of linear theory in one dimension: C_F of (14.12) over the fixed contact, and the wheel on its spring."""
-    force = rolling_theory.force_spectrum_1d(
-        omega / scene.rolling_speed, roughness(scene), contact_radius=scene.contact_radius, modulus=scene.modulus
-    )
+def linear_spectrum(scene: RollingScene, omega: FloatArray, c1d: Spectrum1D | None = None) -> FloatArray:
+    """A of linear theory in one dimension: C_F of (14.12) over the fixed contact, and the wheel on its spring.
+
+    c1d: of the tracks; by default Geike's of rail and wheel.
+    """
+    same = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
+    force = rolling_theory.force_spectrum_1d(omega / scene.rolling_speed, c1d or roughness(scene), **same)
     return accelerated_by(force, scene, omega)
 
 
@@ -89,7 +92,7 @@ def accelerated_by(force: FloatArray, scene: RollingScene, omega: FloatArray) ->
     return np.asarray(rolling_theory.over_frequency(force, speed=scene.rolling_speed) * resonator)
 
 
-def roughness(scene: RollingScene) -> Callable[[FloatArray], FloatArray]:
+def roughness(scene: RollingScene) -> Spectrum1D:
     """C_1D of rail and wheel together: independent heights add as spectra."""
     both = [r.spectrum for r in (scene.rail, scene.wheel) if r]
     return lambda q: np.asarray(sum((s.c1d(q) for s in both), np.zeros_like(q)))

@@ -1,7 +1,7 @@
 """Boundary elements inside the time loop: the wheel of Fig. 14.4 in three dimensions, linear theory and springs."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,16 +12,17 @@ from validation.analysis.series import Estimates
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.analysis.statistics import FloatArray
 from validation.case import SERIAL, Engine, Outcomes
-from validation.cases.wheel.ensembles import TABLE, accelerated_by, linear_force_3d
+from validation.cases.wheel.ensembles import TABLE, accelerated_by, linear_force_3d, linear_spectrum
 from validation.engine.engine import Outcome
 from validation.engine.realisations import FEWEST, NotConvergedError, require_realisations
 from validation.scenes.rolling import RollingScene
 from validation.simulation import model_names as named
+from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 
 QUICK = replace(TABLE, ground=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
-STRIPS, FINER, LOOSE, TIGHT, TRACKS = "strips", "finer", "loose", "tight", "tracks"
+STRIPS, FINER, LOOSE, TIGHT = "strips", "finer", "loose", "tight"
 TIGHTER = 10
 """Ratio of two residuals whose levels differ by the error of the solver."""
 
@@ -77,12 +78,19 @@ class Wheel3D:
             TIGHT: [replace(short, tolerance=self.tolerance / TIGHTER)],
         }
 
-    def ensembles(self) -> list[WheelEnsemble]:
-        """Springs in the steady state, on tracks of Geike's spectrum as long as the strips."""
+    def ensembles(self, input_spectrum: InputSpectrum) -> list[WheelEnsemble]:
+        """Springs in the steady state, on tracks of a spectrum as long as the strips."""
         scene = replace(self.scene, distance=self.strip.shape[0] * self.strip.spacing)
         batches = max(self.wheels // self.batch, 1)
         count = self.wheels // batches
-        ensemble = WheelEnsemble(scene=scene, count=count, groups=self.groups, track="steady-state", seed=self.seed)
+        ensemble = WheelEnsemble(
+            scene=scene,
+            count=count,
+            groups=self.groups,
+            track="steady-state",
+            input_spectrum=input_spectrum,
+            seed=self.seed,
+        )
         return [replace(ensemble, first=i * count) for i in range(batches)]
 
 
@@ -101,14 +109,20 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Outcomes:
         raise NotConvergedError(
             f"{converged} strips converged on {case.cells} cells to a radius, {FEWEST} are needed", unconverged
         )
-    springs = engine.map_groups(simulate_ensemble, {TRACKS: case.ensembles()})
-    if failed := sum(int(outcome["failed"]) for outcome in springs[TRACKS]):
-        raise NotConvergedError("wheels on springs do not repeat their motion", [f"{failed} of {case.wheels}"])
+    springs = engine.map_groups(
+        simulate_ensemble, {model: case.ensembles(rule) for model, rule in INPUT_SPECTRA.items()}
+    )
+    counts = {model: sum(int(outcome["failed"]) for outcome in group) for model, group in springs.items()}
+    if failed := [f"{count} of {case.wheels}, {model}" for model, count in counts.items() if count]:
+        raise NotConvergedError("wheels on springs do not repeat their motion", failed)
     return Outcomes(case, {**strips, **springs}, unconverged)
 
 
-LINEAR_3D, LINEAR_1D, BEM, GEIKE = named.FILTER_3D, "(14.12)", named.BEM, named.SPRINGS_GEIKE
-MODELS = (LINEAR_3D, GEIKE)
+LINEAR_3D, LINEAR_1D, BEM = named.FILTER_3D, "(14.12)", named.BEM
+GEIKE, ROLLING = named.SPRINGS_GEIKE, named.SPRINGS_ROLLING
+INPUT_SPECTRA: Mapping[str, InputSpectrum] = {GEIKE: "geike", ROLLING: "rolling"}
+"""Of the tracks of springs."""
+MODELS = (LINEAR_3D, GEIKE, ROLLING)
 CONTACTS = {BEM: "bem", LINEAR_3D: "linear"}
 OVER_BEM = {model: f"{model} over {BEM}" for model in MODELS}
 POINTS = 40
@@ -199,6 +213,21 @@ class WheelLevels:
         bands = zip(self.edges, self.edges[1:], strict=False)
         return np.log([_integral(self._density_3d, *band) for band in bands])
 
+    @property
+    def rolling_over_exact(self) -> FloatArray:
+        """ln of (14.12) on the rolling-equivalent spectrum over linear theory in three dimensions."""
+        scene = self.result.case.scene
+        assert scene.rail is not None  # strips refuse a smooth rail
+        track = TrackSpectrum(scene.rail, "rolling", scene.contact_radius)
+        bands = zip(self.edges, self.edges[1:], strict=False)
+        levels = [_integral(lambda omega: linear_spectrum(scene, omega, track), *band) for band in bands]
+        return np.asarray(np.log(levels) - self.exact)
+
+    @property
+    def without_zero(self) -> NDArray[np.bool_]:
+        """Bands in which sin(q a) has no zero."""
+        return np.asarray(np.diff(np.floor(self.edges / self.result.case.scene.oscillation_period)) == 0)
+
     def _density_3d(self, omega: FloatArray) -> FloatArray:
         scene = self.result.case.scene
         return accelerated_by(linear_force_3d(scene, omega / scene.rolling_speed), scene, omega)
@@ -208,21 +237,19 @@ class WheelLevels:
         """ln of the level of boundary elements: that of linear theory, and their ratio on the strips."""
         return np.asarray(self.exact + self.ratio.values)
 
-    @property
-    def on_springs(self) -> tuple[FloatArray, FloatArray]:
-        """omega, and A with Hann's window, (groups, frequencies)."""
-        batches = self.result[TRACKS]
+    def on_springs(self, model: str) -> tuple[FloatArray, FloatArray]:
+        """omega, and A with Hann's window, (groups, frequencies); model: of `INPUT_SPECTRA`."""
+        batches = self.result[model]
         return batches[0]["omega"], np.concatenate([batch["hann"] for batch in batches])
 
-    @cached_property
-    def springs(self) -> Estimates:
+    def springs(self, model: str) -> Estimates:
         """ln of their level."""
-        omega, groups = self.on_springs
+        omega, groups = self.on_springs(model)
         return Estimates.ratios(band_levels(omega, groups.T, self.edges).T, np.ones(self.centres.size))
 
     def over_bem(self, model: str) -> Estimates:
         """ln of a model's level over boundary elements, band by band, with the error of both samples."""
-        level = self.springs if model == GEIKE else Estimates.exact(self.exact)
+        level = Estimates.exact(self.exact) if model == LINEAR_3D else self.springs(model)
         bem = zip(self.ratio, self.bem.tolist(), strict=True)
         return level - Estimates(replace(ratio, value=value) for ratio, value in bem)
 

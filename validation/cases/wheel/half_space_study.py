@@ -95,7 +95,7 @@ def _spectra(levels: wheel.WheelLevels) -> dict[str, tuple[FloatArray, FloatArra
     """omega and A, (strips or groups, frequencies), of boundary elements, the linear contact and springs."""
     return {
         **{model: levels.spectra(contact) for model, contact in wheel.CONTACTS.items()},
-        wheel.GEIKE: levels.on_springs,
+        **{model: levels.on_springs(model) for model in wheel.INPUT_SPECTRA},
     }
 
 
@@ -159,12 +159,28 @@ def notes(result: Outcomes) -> Sequence[str]:
             "three dimensions has them."
             for low, high in ([(below.min(), below.max())] if plateau.any() else [])
         ),
+        _on_rolling_spectrum(levels),
         f"{change}{np.median(changes):.2g} dB in the median band and {changes.max():.2g} dB at most; levels are those "
         "of no size, to first order.",
     )
 
 
-MODEL_STYLES = {wheel.LINEAR_3D: "lines", wheel.GEIKE: "marks"}
+def _on_rolling_spectrum(levels: wheel.WheelLevels) -> str:
+    """What linear theory leaves of springs on the rolling-equivalent spectrum."""
+    over, whole = POWER_DECIBEL * np.abs(levels.rolling_over_exact), levels.without_zero
+    plateau = levels.ranges["region 2"]
+    region_3 = np.any([inside for name, inside in levels.ranges.items() if name != "region 2"], axis=0)
+    parts = {"region 2": plateau, "region 3, in bands without a zero of sin(q a)": region_3 & whole}
+    worst = [f"within {over[inside].max():.2g} dB in {name}" for name, inside in parts.items() if inside.any()]
+    at_zeros = over[region_3 & ~whole]
+    last = [f"up to {at_zeros.max():.2g} dB off in bands with one"] if at_zeros.size else []
+    return (
+        "By linear theory springs on the rolling-equivalent spectrum are "
+        f"{', '.join([*worst, *last])}: one dimension has zeros that three dimensions fill."
+    )
+
+
+MODEL_STYLES = {wheel.LINEAR_3D: "lines", wheel.GEIKE: "marks", wheel.ROLLING: "marks"}
 MARKED = Curve(MARKS, style="guide", upright=True)
 BANDS = Panel(OMEGA, LEVELS, decades=75.0).of(
     *by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "marks"}, bars=True), MARKED
@@ -184,7 +200,8 @@ STUDY = Study(
         "{c.strip.shape[0]} time steps, {c.cells} cells to a contact radius, residual {c.tolerance:g}; surfaces "
         "periodic, {c.strip.shape[1]} cells wide, half a natural period longer than {c.periods}. The linear contact of "
         "fixed radius rolls on the same surfaces; boundary elements begin in its steady state. "
-        "{c.wheels} wheels on springs move in their steady state, on tracks of Geike's spectrum of these surfaces. All "
+        "{c.wheels} wheels on springs move in their steady state, on tracks of Geike's spectrum of these surfaces, and "
+        "as many on their rolling-equivalent spectrum, which has waves below q_min as a line of the surface has. All "
         "use Hann's window. Levels of boundary elements are over the linear contact on the same surfaces, times linear "
         "theory; grid: {c.finer} of the strips on half as long cells, to first order; solver: from a residual "
         f"{wheel.TIGHTER} times smaller. Nothing damps the wheel, and in 3D roughness excites its resonance, so that "
@@ -206,6 +223,11 @@ STUDY = Study(
             "the regions of Fig. 14.4.",
             short="Springs of Fig. 14.4 agree with boundary elements in the time loop",
             key="regions",
+        ),
+        Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.ROLLING], along="range").saying(
+            "Springs on the rolling-equivalent spectrum have the acceleration of boundary elements in the time loop.",
+            short="Springs on the rolling-equivalent spectrum agree with boundary elements in the time loop",
+            key="rolling-equivalent",
         ),
         Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
             "Linear theory in three dimensions gives the acceleration of the wheel.",

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from validation.advice.tolerance import tolerance_of
 from validation.analysis.contents import as_json, folder_names
-from validation.analysis.escapes import printable
+from validation.analysis.escapes import coloured, printable
 from validation.engine.files import write_output
-from validation.judging.judge import Judgement, judged, numbers_as_csv
+from validation.judging.judge import Judgement, callers_named, judged, numbers_as_csv
 from validation.judging.source_files import GROUP, installed
 from validation.judging.worker import Called, visited
 from validation.report.commands.arguments import Exit, add_options, check_places
@@ -60,16 +60,13 @@ def judge(arguments: argparse.Namespace) -> Exit:
     check_places(arguments, {Path(arguments.file): "is the model"})
     judgements: list[Judgement] = []
     with visited(arguments.file) as callers, ExitStack() as stack:
-        chosen = [caller for caller in callers if arguments.only in (None, caller.name)]
-        if not chosen:
-            names = ", ".join(caller.name for caller in callers)
-            raise ValueError(f"--only must be one of {names}, got {arguments.only}")
+        chosen = callers_named(callers, arguments.only, option="--only")
         folders = [stack.enter_context(folder) for folder in _folders(chosen, arguments.out)]
         for caller, folder in zip_longest(chosen, folders):
             judgements.append(judged(caller, tolerance))
             if folder:
                 folder.replace(judgements[-1].files())
-            print(printable(judgements[-1].summary(), lines=True), end="\n\n", flush=True)
+            print(coloured(printable(judgements[-1].summary(), lines=True)), end="\n\n", flush=True)
     _write(judgements, arguments)
     if not any(judgement.answered for judgement in judgements):
         return Exit.NOT_CONVERGED

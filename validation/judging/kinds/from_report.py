@@ -18,12 +18,14 @@ from scipy.special import erfinv
 import bem3d
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.statistics import DECIBEL
+from validation.cases.punch.interface import Interface
 from validation.cases.wheel import ensembles
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.judging.judgement import DEVIATION
-from validation.judging.kinds import held_out_points, own, rolling, stiffness
+from validation.judging.kinds import held_out_points, interfaces, own, rolling, stiffness
 from validation.judging.kinds.held_out_points import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
+from validation.judging.kinds.interfaces import CONTACT
 from validation.judging.kinds.laws import FEATURE, REGION, by_region
 from validation.judging.kinds.references import Reference, as_file, file_name, rows_of
 from validation.judging.kinds.rolling import ALPHA, DIAMETER, FILTER, HEIGHT, LOAD, OFFSET, SLOPE, WAVE, Q
@@ -45,7 +47,6 @@ from validation.simulation.track_spectrum import PiecewisePowerLaw
 Row = Mapping[str, Any]
 Find = Callable[["Report", Engine], Iterable[Reference]]
 SPRINGS_OVER = f"{SPRINGS} over {BEM}"
-CONTACT = "contact in Persson's theory [%]"
 TENTH = 1.2816
 """Of a Gaussian, its deviations to the highest tenth."""
 FEATURES = tuple(ensembles.QUANTITIES.values())
@@ -138,6 +139,25 @@ def _rolled_off(report: Report, _: Engine) -> Iterator[Reference]:
     for row in report.references("interface", "k_h_over_F", CONTACT, model=f"{BEM}, punch"):
         force = gradient * float(erfinv(row[CONTACT] / 100)) / math.sqrt(2)
         yield replace(row, where={H: hurst, ROLL_OFF: float(waves), FORCE: force}, value=force * row.value)
+
+
+def _interface(quantity: str) -> Find:
+    return lambda report, _: report.references("interface", quantity, ROLL_OFF, H, CONTACT)
+
+
+def _areas(report: Report, _: Engine) -> Iterator[Reference]:
+    """A / L^2, of which the report has A E* g / (L^2 p) with the rms gradient g of the drawn surfaces."""
+    settings = report.settings("interface")
+    case = Interface(**{name: _frozen(value) for name, value in settings.items()})
+    for row in report.references("interface", "A_E_g_over_p", ROLL_OFF, H, CONTACT):
+        ground, load = (round(row[ROLL_OFF]), row[H]), case.per_cent.index(row[CONTACT])
+        pressure = case.height * float(case.pressures(ground)[load])
+        yield replace(row, value=row.value * pressure / case.drawn(ground).gradient)
+
+
+def _frozen(value: Any) -> Any:
+    """Lists of JSON as the tuples that they were."""
+    return tuple(map(_frozen, value)) if isinstance(value, list) else value
 
 
 def _by_band(report: Report, _: Engine) -> Iterator[Reference]:
@@ -265,9 +285,9 @@ SOURCES: Mapping[str, ReferenceFile] = {
     stiffness.DEVIATION: _file(DEVIATION, "fractal_punch", _punch("relative_deviation_of_k", "relative_deviation")),
     stiffness.ROLLED_OFF: _file("k / (E* L)", "interface", _rolled_off),
     stiffness.BY_BAND: _file(DEVIATION, "bandwidth", _by_band),
-    "stiffness of an interface": _file(
-        "K h / p", "interface", lambda report, _: report.references("interface", "K_h_over_p", ROLL_OFF, H, CONTACT)
-    ),
+    interfaces.STIFFNESS: _file("K h / p", "interface", _interface("K_h_over_p")),
+    interfaces.GAP: _file("u / h", "interface", _interface("mean_gap_over_h")),
+    interfaces.AREA: _file("A / L²", "interface", _areas),
     rolling.LEVEL: _file(f"{_UNIT}, of an octave", "rolling", _levels),
     rolling.RMS: _file(_UNIT, "rolling", _rms),
     rolling.MEAN: _file("over F_Hertz", "rolling", _mean),

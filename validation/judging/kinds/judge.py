@@ -13,6 +13,7 @@ import numpy as np
 
 from validation.analysis.evidence import Verdict
 from validation.analysis.statistics import Estimate, FloatArray
+from validation.engine.engine import identity
 from validation.judging.judgement import AGAIN, LEVEL, RATIO, Conditions, JudgedNumber, judged_number, missing_number
 from validation.judging.kinds.references import Reference
 from validation.judging.registry import Caller, Failed, Offered
@@ -48,7 +49,7 @@ class Recorded(Caller):
     """The first answer to each problem; problems that were asked twice, with both answers, where these differ."""
 
     @property
-    def offered(self) -> Offered:  # type: ignore[override]  # is read alone
+    def offered(self) -> Offered[..., Any]:  # type: ignore[override]  # is read alone
         return self.model.offered
 
     @property
@@ -91,7 +92,8 @@ def digest_of(arguments: Mapping[str, Any]) -> bytes:
     for name, value in sorted(arguments.items()):
         state = value.bit_generator.state if isinstance(value, np.random.Generator) else value
         digest.update(name.encode())
-        digest.update(np.ascontiguousarray(state).tobytes() if isinstance(state, np.ndarray) else repr(state).encode())
+        is_array = isinstance(state, np.ndarray)
+        digest.update(np.ascontiguousarray(state).tobytes() if is_array else identity(state).encode())
     return digest.digest()
 
 
@@ -173,6 +175,7 @@ JUDGES: Mapping[str, str] = {
     "rolling_model": "rolling:judged",
     "contact_filter": "rolling:judged_filter",
     "profile_spectrum": "profiles:judged",
+    "interface_model": "interfaces:judged",
     "contact_law": "laws:judged",
 }
 """Module beside this one, and its function, by the decorator; a contact solver is judged among the benchmarks."""

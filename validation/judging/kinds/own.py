@@ -1,8 +1,8 @@
 """The suite's own models, offered as anyone offers theirs: their errors are kept, and they are timed beside another."""
 
 import math
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -10,18 +10,26 @@ import mdr
 from validation.analysis.statistics import FloatArray
 from validation.judging import registry as offered
 from validation.judging.judgement import JudgedNumber
+from validation.judging.kinds import interfaces
 from validation.judging.kinds.judge import points_of
 from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.rolling import FILTER, LEVEL
-from validation.judging.kinds.stiffness import MEAN
+from validation.judging.kinds.stiffness import MEAN, PlateauRoughness
 from validation.judging.registry import Failed, Offered
 from validation.judging.worker import Called
 from validation.railway.theory.contact_filters import half_space_filter, spring_bed_filter
 from validation.simulation.model_names import BED, FILTER_1D, FILTER_3D, LINEAR, LINEAR_ON_LINE, SPRINGS
 from validation.theory import rolling
+from validation.theory.interface import (
+    BushGibsonThomas,
+    GreenwoodWilliamson,
+    InterfaceModel,
+    Persson,
+    RoughnessSpectrum,
+)
 
 ERRORS = "median error of the suite's own models"
-MAIN = {"stiffness_model": MEAN, "contact_filter": FILTER} | dict.fromkeys(
+MAIN = {"stiffness_model": MEAN, "contact_filter": FILTER, "interface_model": interfaces.STIFFNESS} | dict.fromkeys(
     ("force_spectrum", "rolling_model", "profile_spectrum"), LEVEL
 )
 """The quantity by whose median error models of a kind are ranked."""
@@ -62,7 +70,25 @@ line = offered.contact_filter(LINEAR_ON_LINE)(lambda k_x, a_x: np.sinc(k_x * a_x
 bed = offered.contact_filter(BED)(lambda k_x, k_y, a_x, a_y: spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y)))
 geike = offered.profile_spectrum("Geike's rule")(lambda q, roughness: math.pi * q * roughness.c2d(q))
 trace = offered.profile_spectrum("line trace")(lambda q, roughness: roughness.line(q))
-OWN: Sequence[Offered] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
+
+
+def _offered(name: str, theory: Callable[..., InterfaceModel]) -> Offered[..., Any]:
+    """A model of the core, of C_2D between the ends of the band and of the plateau."""
+
+    def of_roughness(pressure: float, modulus: float, roughness: PlateauRoughness, quantity: str) -> float:
+        edges = roughness.q_min, roughness.q_roll_off, roughness.q_max
+        model = theory(RoughnessSpectrum.of_c2d(roughness.c2d, edges), modulus)
+        return float(getattr(model, quantity)(pressure))
+
+    return offered.interface_model(name)(of_roughness)
+
+
+persson = _offered("Persson, γ = 0.45", Persson)
+spheres, ellipsoids = (_offered(theory.name, theory) for theory in (GreenwoodWilliamson, BushGibsonThomas))
+OWN: Sequence[Offered[..., Any]] = (
+    *(springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace),
+    *(persson, spheres, ellipsoids),
+)
 
 
 class ErrorOfCall(NamedTuple):

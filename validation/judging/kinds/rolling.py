@@ -16,7 +16,7 @@ import numpy as np
 import mdr
 from validation.analysis.quantity import MEAN_FORCE, RMS_FORCE, Quantity
 from validation.analysis.series import Estimates
-from validation.analysis.spectra import Bands, levels, waves
+from validation.analysis.spectra import Bands, assessed_bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
 from validation.judging.judgement import LEVEL as DECIBELS
 from validation.judging.judgement import RATIO, Conditions
@@ -383,8 +383,8 @@ def counted_bands(scene: RailScene, alpha: float) -> list[tuple[int, float, floa
     """Bands that count, up to the first below `COUNTED`: number, wavelength [mm], and A3 of linear theory [dB]."""
     levels = a3(scene, alpha, partial(half_space_filter, semi_axes=scene.contact.semi_axes))
     waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
-    lowest = np.minimum.accumulate(levels)
-    return [(i, wave, float(levels[i])) for i, wave in enumerate(waves) if lowest[i] > COUNTED]
+    inside = assessed_bands(levels, COUNTED)
+    return [(i, wave, float(levels[i])) for i, wave in enumerate(waves) if inside[i]]
 
 
 @cache

@@ -8,7 +8,7 @@ from itertools import groupby, product
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 import mdr
 from validation.analysis.quantity import MEAN_STIFFNESS, Quantity
@@ -55,11 +55,11 @@ BY_BAND = Quantity("deviation_of_the_stiffness_by_bandwidth", "deviation of the 
 class PlateauRoughness(PlateauSpectrum):
     """What a stranger gets: with its own rms height, constant below the roll-off."""
 
-    def c2d(self, q: ArrayLike) -> FloatArray:
+    def _density(self, q: FloatArray) -> FloatArray:
         """C_2D [m^4], whose integral is the mean square height; that of the draw has the level without a plateau."""
         n, first, last, bend = -2 * self.hurst, self.q_min, self.q_max, self.q_roll_off
         tail, plateau = (last**n - bend**n) / n, bend ** (n - 2) * (bend**2 - first**2) / 2
-        return np.asarray((last**n - first**n) / n / (plateau + tail) * super().c2d(q))
+        return np.asarray((last**n - first**n) / n / (plateau + tail) * super()._density(q))
 
 
 @dataclass(frozen=True)

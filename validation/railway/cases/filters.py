@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from validation.analysis.spectra import NominalBands
+from validation.analysis.spectra import NominalBands, assessed_bands
 from validation.analysis.statistics import FloatArray
 from validation.railway.problems.equivalent_displacement import geike_power, transfer_of
 from validation.railway.problems.rail_strip import (
@@ -128,7 +128,7 @@ def linear_filter(
 
 def counted(a3: FloatArray) -> NDArray[np.bool_]:
     """All bands that are longer than the first below -15 dB."""
-    return np.logical_and.accumulate(a3 > COUNTED)
+    return assessed_bands(a3, COUNTED)
 
 
 def on_strips(scene: RailScene, values: NDArray[T]) -> NDArray[T]:

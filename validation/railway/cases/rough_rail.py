@@ -1,5 +1,6 @@
 """How rough a rail may be before its contact filter depends on the roughness, and which lines of it to average."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
@@ -7,14 +8,17 @@ from typing import Any
 
 import numpy as np
 
+from validation.analysis.chart import by_model
 from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Role, Table
 from validation.analysis.number_text import decibels
-from validation.analysis.series import FIELD, Estimates, masked, only
-from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Quantity, Series, Study
+from validation.analysis.series import FIELD, Estimates, Margin, masked, only
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Panel, Quantity, Series, Study
+from validation.engine.realisations import NotConvergedError
 from validation.railway.cases import filters
 from validation.railway.cases import rolled_filters as rolled
 from validation.railway.cases.filters import COUNTED, OFFSET, counted, millimetres
+from validation.railway.problems.equivalent_displacement import Corrugation, roll_corrugation
 from validation.railway.problems.rail_strip import (
     SHORTEST,
     line_of,
@@ -24,6 +28,7 @@ from validation.railway.problems.rail_strip import (
     strip_bands,
     structure_of,
 )
+from validation.railway.theory.contact_filters import corrugation_harmonic, corrugation_harmonic_of_springs
 from validation.simulation import model_names as named
 from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, twin_of
 
@@ -34,23 +39,65 @@ OF_BEM = Quantity("interval_of_A3_of_boundary_elements")
 HEIGHTS = Quantity("mean_of_heights_over_energy_mean_of_lines")
 ELLIPSE = Quantity("A3_of_the_ellipse_over_that_of_a_line")
 SPACING, ACROSS = "spacing [mm]", "across"
+HARMONIC, PHASE = Quantity("half_wavelength_of_a_corrugation", "half wavelength of a corrugation, times d/A²"), "k a"
+SECOND_ORDER = "second order, half-space"
+OF_HARMONIC = Margin(0.02, "0.02: a tenth of its largest values", source="the closed second order of a circle")
 GROUNDS = {name: filters.GROUNDS[name] for name in (RIDGES, "alpha = 0.5", "alpha = 1", GROUND)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class RoughRail(rolled.RolledFilters):
-    """lines: parallel ones; spacings: of them [m]."""
+    """lines: parallel ones; spacings: of them [m].
+
+    phases: k a of corrugations, of the height A / d; corrugated: cells of both grids to the semi-axis, for these.
+    """
 
     across: tuple[str, ...] = (GROUND,)
     lines: int = 3
     spacings: tuple[float, ...] = (0.005, 0.010)
+    phases: tuple[float, ...] = (0.8, 1.2, 1.6, 2.0, 2.4, 2.8)
+    height: float = 0.1
+    corrugated: tuple[int, int] = (12, 24)
     seed: int = 21
+
+
+def run(case: RoughRail, engine: Engine = SERIAL) -> rolled.RolledFiltersResult:
+    """Strips as of all filters, and corrugations on both grids. Raises NotConvergedError where one is lost."""
+    result = rolled.run_filters(case, engine)
+    problems = {
+        (HARMONIC, cells): [Corrugation(phase=s, height=case.height, cells=cells) for s in case.phases]
+        for cells in case.corrugated
+    }
+    corrugations = engine.map_groups(roll_corrugation, problems)
+    if lost := [
+        f"k a = {s:g}, {cells} cells to an axis"
+        for (_, cells), outcomes in corrugations.items()
+        for s, outcome in zip(case.phases, outcomes, strict=True)
+        if outcome["failed"]
+    ]:
+        raise NotConvergedError("the half wavelength of a corrugation needs all of its positions", lost)
+    return replace(result, by_key={**result.by_key, **corrugations})
 
 
 def series(result: rolled.RolledFiltersResult) -> list[Series]:
     """Filters and models over boundary elements, roughness by roughness; mean of heights over energy mean of lines."""
     parts = ((*result.filters(key), *_over_bem(result, key)) for key in result.case.keys)
-    return [*(series for part in parts for series in part), *means_of_lines(result.case)]
+    return [*(series for part in parts for series in part), *means_of_lines(result.case), *_corrugations(result)]
+
+
+def _corrugations(result: rolled.RolledFiltersResult) -> Iterator[Series]:
+    """The half wavelength that a corrugation makes, on boundary elements, in closed form, and on springs."""
+    case = result.case
+    assert isinstance(case, RoughRail)
+    coarse, fine = (
+        np.array([float(outcome["second"]) for outcome in result[HARMONIC, cells]]) for cells in case.corrugated
+    )
+    exact = corrugation_harmonic(case.phases)
+    along = partial(Series, HARMONIC, along=PHASE, at=case.phases, unit="-")
+    grid = np.abs(fine - coarse) / (case.corrugated[1] / case.corrugated[0] - 1)
+    yield along(BEM, fine, reference=Estimates.exact(exact), grid=grid, margin=OF_HARMONIC)
+    yield along(SECOND_ORDER, exact)
+    yield along(named.SPRINGS_ON_LINE, corrugation_harmonic_of_springs(case.phases))
 
 
 def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[Series]:
@@ -100,10 +147,22 @@ def notes(result: rolled.RolledFiltersResult) -> list[str]:
     assert isinstance(case, RoughRail)
     numbers = [n for series in means_of_lines(case) for n in series.numbers if n.role is Role.FINDING]
     low = min(numbers, key=lambda number: number.value)
+    contact = case.scene(case.keys[0]).contact
+    phase, height = 1.2, 20e-6
+    wave, made = (
+        2 * math.pi * contact.along / phase,
+        abs(float(corrugation_harmonic(phase))) * height / contact.approach,
+    )
+    passed = float(np.sinc(phase / math.pi))
     return [
+        f"A corrugation makes its half wavelength: of {1000 * wave:.0f} mm and an amplitude of {1e6 * height:g} µm "
+        f"under a contact of semi-axis {1000 * contact.along:.3g} mm, {1000 * wave / 2:.0f} mm with "
+        f"{1e6 * made * height:.2g} µm at constant load, {20 * math.log10(made / passed):.0f} dB relative to the "
+        "corrugation behind the filter, by second order. No linear filter has it; it goes as the square of the "
+        "amplitude.",
         f"The mean of the heights of {case.lines} parallel lines {low.where[SPACING]:g} mm apart is off by "
         f"{low.value:+.1f} dB over {low.where[ACROSS]}, at a wave of {low.where['worst at']:g} mm. "
-        "For a level, average their spectra; a mean of heights is a filter of its own."
+        "For a level, average their spectra; a mean of heights is a filter of its own.",
     ]
 
 
@@ -133,7 +192,9 @@ STUDY = Study(
         "of their spectra has the levels of one line in the mean of all realisations, and scatters less. The mean of "
         "heights is itself a filter: of lines 0.71 a_y apart it stands for the filter of the ellipse across the track "
         "(case across), and a filter of the ellipse that is applied to it counts this twice. No level is "
-        "taken from a mean of heights."
+        "taken from a mean of heights. Corrugations are ridges A cos(k x), A/d = {c.height:g}, under a circular "
+        "contact at constant load, {c.corrugated[1]} cells to its radius, and {c.corrugated[0]} for the error of the "
+        "grid."
     ),
     series=series,
     claims=(
@@ -142,6 +203,11 @@ STUDY = Study(
             "filter of boundary elements.",
             short="Linear theory of the ellipse agrees with boundary elements on rougher rails",
             key="linear-theory",
+        ),
+        Claim(quantity=HARMONIC, model=BEM).saying(
+            "A corrugation makes its half wavelength, with the amplitude of a closed second order.",
+            short="The half wavelength that a corrugation makes on BEM agrees with a closed second order",
+            key="half-wavelength",
         ),
     ),
     charts=(
@@ -158,6 +224,13 @@ STUDY = Study(
             ).of(
                 Curve(OF_BEM, style="interval", label="95 %, boundary elements", band=True),
                 Curve(rolled.OVER_BEM, SHOWN, by=("model",)),
+            ),
+        ),
+        Chart("rough_rail-corrugation", claims=(1,)).of(
+            "Amplitude of half the wavelength that a corrugation A cos(k x) makes at constant load, times d/A², over "
+            "k a: boundary elements, 95 % of the grid, the closed second order of the half-space, and that of springs.",
+            Panel(PHASE, f"{HARMONIC} [-]", log="", lines=(0.0,)).of(
+                *by_model(HARMONIC, {SECOND_ORDER: "lines", named.SPRINGS_ON_LINE: "lines", BEM: "marks"}, bars=True)
             ),
         ),
         Chart("rough_rail-lines", claims=()).of(
@@ -185,8 +258,8 @@ CASE = Case(
     place=3,
     answers="How rough a rail may be before its contact filter depends on the roughness; which lines to average",
     quick=RoughRail(offsets=(0.0, 20.0), strips=3, cells=(5, 7)),
-    full=RoughRail(offsets=(0.0, 5.0, 10.0, 15.0, 20.0), strips=10, cells=(8, 16)),
-    run=rolled.run_filters,
+    full=RoughRail(offsets=(0.0, 5.0, 10.0, 15.0, 20.0), strips=10, cells=(8, 16), corrugated=(16, 32)),
+    run=run,
     study=STUDY,
     needs="linear theory of the ellipse; boundary elements for short waves on rougher rails",
 )

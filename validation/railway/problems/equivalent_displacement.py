@@ -37,8 +37,10 @@ from validation.railway.theory.contact_filters import (
 from validation.railway.theory.transverse_structure import IsotropicGround, LineSpectrum, Ridges
 from validation.simulation import model_names as named
 from validation.simulation.model_names import BEM, LINE, twin_of
-from validation.theory.half_space import EllipticContact
+from validation.theory.half_space import EllipticContact, elliptic_contact
 
+LONG_ENOUGH, WIDE_ENOUGH = 3.2, 1.3
+"""Length of a corrugated strip and half of its width, over the semi-axes."""
 FINER = 3
 """Springs to a cell, an odd number. The ends of a contact lie between springs: near its zeros the filter of few springs
 moves to and fro by up to a decibel, where boundary elements with as few cells stay."""
@@ -238,6 +240,45 @@ def roll_rail(problem: RolledRail) -> Outcome:
         displacements[BEM] = lifted(rolled.approach)
         failed = int(np.count_nonzero(~rolled.converged))
     return {**displacements, "failed": np.array(float(failed))}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corrugation:
+    """A ridge A cos(k x) under a wheel at constant load, a = d = 1 of the smooth contact.
+
+    phase: k a along the track; height: A / d; crown: radius across over that along; cells: to the semi-axis along.
+    """
+
+    phase: float
+    height: float
+    cells: int
+    crown: float = 1.0
+
+
+def roll_corrugation(problem: Corrugation) -> Outcome:
+    """Amplitudes of cos(k x) and cos(2 k x) of the equivalent displacement: first over A, second over A^2 / d."""
+    contact = elliptic_contact((1.0, problem.crown), modulus=1.0, force=1.0)
+    a, d = contact.along, contact.approach
+    wave = 2 * math.pi / problem.phase
+    points = round(wave * problem.cells)
+    waves = math.ceil(LONG_ENOUGH / wave)
+    spacing, across = wave / points * a, 2 * math.ceil(WIDE_ENOUGH * contact.across / a * problem.cells) + 1
+    height = problem.height * d * np.cos(2 * np.pi * np.arange(points * waves) / points)
+    rolled = bem3d.roll(
+        np.repeat(height[:, np.newaxis], across, axis=1),
+        spacing=spacing,
+        radius=(1.0, problem.crown),
+        modulus=1.0,
+        force=1.0,
+        tolerance=1e-7,
+        raise_on_failure=False,
+    )
+    amplitudes = 2 * np.fft.rfft(lifted(rolled.approach), norm="forward").real / (problem.height * d)
+    return {
+        "first": np.array(amplitudes[waves]),
+        "second": np.array(amplitudes[2 * waves] / problem.height),
+        "failed": np.array(float(np.count_nonzero(~rolled.converged))),
+    }
 
 
 def log_over(model: str, other: str, outcomes: Sequence[Outcome], spacing: float, bands: Bands) -> list[Estimate]:

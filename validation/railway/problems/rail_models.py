@@ -179,7 +179,7 @@ class ContactFilter:
         return Result({**all_of_them, **values}, failed=failed)
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class RailModel(Model):
     """filter: what it makes of a rail."""
 
@@ -262,7 +262,7 @@ def answer_in_bands(scene_model: SceneModel) -> Answer:
         value=result.values[quantity.name],
         cost=scene_model.cost(),
         counted=(
-            f"the tolerance counts where A3 is above {COUNTED:g} dB: {quantity.bands.names(counts)}"
+            f"the tolerance counts before the first band with A3 below {COUNTED:g} dB: {quantity.bands.names(counts)}"
             if counts.any()
             else quantity.none_counts
         ),

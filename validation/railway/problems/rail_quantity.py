@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.spectra import NominalBands
+from validation.analysis.spectra import NominalBands, assessed_bands
 from validation.engine.engine import FloatArray
 from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_power import RailPower, asks_for_power
@@ -214,7 +214,7 @@ class RailQuantity:
 
     def counted(self, a3: FloatArray) -> NDArray[np.bool_]:
         """Bands in which the tolerance counts; of sound power all, by their share in the sum."""
-        return np.isfinite(a3) if asks_for_power(self.name) else a3 > COUNTED
+        return np.isfinite(a3) if asks_for_power(self.name) else assessed_bands(a3, COUNTED)
 
     def largest_error(self, a3: FloatArray, error: FloatArray) -> float:
         """The largest of the errors of A3 in bands that count, or what they leave of the sum of sound power [dB].

@@ -17,11 +17,18 @@ from validation.railway.problems.equivalent_displacement import (
     roll_springs,
 )
 from validation.railway.problems.rail_strip import RailStrip
+from validation.scenes.rail_impedance import RailImpedance
 from validation.scenes.wheel_body import DampedWheel, Wheel
-from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
+from validation.simulation.contact_laws import (
+    BoundaryElementsLaw,
+    ContactLaw,
+    HertzLaw,
+    LinearLaw,
+    dynamic_mass,
+    in_series,
+)
 from validation.simulation.model_names import BEM, LINE, LINEAR
 from validation.simulation.motion import simulate_from_linear_motion
-from validation.theory.rolling import dynamic_stiffness
 
 DEEPER = 6.0
 """Largest approach of the springs in motion, over that of the smooth wheel."""
@@ -31,8 +38,8 @@ DEEPER = 6.0
 class WheelOnRail:
     """A wheel of a mass that rolls along a periodic strip at a speed, some rounds.
 
-    strip: with the static load; mass [kg]; speed [m/s]; damping: ratio zeta; model: of the contact; tolerance: residual
-    of each contact; rounds: that are not kept, and that are.
+    strip: with the static load; mass [kg]; speed [m/s]; damping: ratio zeta; rail: that gives way, None where rigid;
+    model: of the contact; tolerance: residual of each contact; rounds: that are not kept, and that are.
     """
 
     strip: RailStrip
@@ -41,14 +48,21 @@ class WheelOnRail:
     model: str
     tolerance: float
     damping: float = 0.0
+    rail: RailImpedance | None = None
     rounds: tuple[int, int] = (0, 1)
 
     @cached_property
     def wheel(self) -> DampedWheel:
         """A sphere with the load curve and the contact length of the ellipse."""
         springs = spring_wheel(self.strip.radii, self.strip.modulus)
-        moving = {"mass": self.mass, "load": self.strip.force, "damping": self.damping}
-        return DampedWheel(radius=springs.radius, modulus=springs.modulus, **moving)
+        return DampedWheel(
+            radius=springs.radius,
+            modulus=springs.modulus,
+            mass=self.mass,
+            load=self.strip.force,
+            damping=self.damping,
+            rail=self.rail,
+        )
 
     @property
     def time_step(self) -> float:
@@ -65,6 +79,19 @@ class WheelOnRail:
         if self.model == BEM:
             return EllipseLaw(self.wheel, self.strip, self.tolerance)
         return SurfaceSpringsLaw(self.wheel, self.strip)
+
+
+class FilteredHertzLaw:
+    """The smooth wheel over a filtered roughness, F = F_Hertz(d + r(x)): the filter of constant load holds exactly."""
+
+    def __init__(self, wheel: Wheel, lift: FloatArray):
+        self.hertz, self.lift = HertzLaw(wheel), lift
+
+    def force(self, place: int, approach: FloatArray) -> FloatArray:
+        return self.hertz.force(place, approach + self.lift[place % self.lift.size])
+
+    def at_rest(self, place: int) -> FloatArray:
+        return np.asarray(self.hertz.at_rest(place) - self.lift[place % self.lift.size])
 
 
 class EllipseLaw(BoundaryElementsLaw):
@@ -100,24 +127,29 @@ class SurfaceSpringsLaw:
 
 
 def roll_and_move(case: WheelOnRail) -> Outcome:
-    """What lifts the wheel at constant load and in motion, all about their means and through Hann's window.
+    """What lifts the wheel at constant load and in motion, and forces, about their means and through Hann's window.
 
-    All have the length of the rounds that are kept. inferred: by the force in motion, `over_dynamic_stiffness`; linear,
-    line: of linear theory at constant load, and the line itself; airborne: share of steps without contact;
+    All have the length of the rounds that are kept. constant: -(approach - mean) at constant load; moving: of the
+    motion, `while_in_contact`; force: of the motion; filtered: that of the smooth wheel over what lifts it at constant
+    load; inferred: lift by the force in motion, `over_dynamic_stiffness`; linear, line: of linear theory at constant
+    load, and the line itself; airborne, airborne_filtered: share of steps without contact of both motions;
     failed: whether a contact has not converged, without which only linear and line are numbers. Motion begins in the
     steady state of linear theory.
     """
     rounds, failed = case.rounds[1], 0.0
     try:
         still = at_constant_load(case)
-        approach, force = in_motion(case)
+        approach, force = in_motion(case, case.law())
+        _, filtered = in_motion(case, FilteredHertzLaw(case.wheel, still))
     except bem3d.ConvergenceError:
         failed, steps = 1.0, case.strip.shape[0]
-        still, (approach, force) = np.full(steps, np.nan), np.full((2, rounds * steps), np.nan)
+        still, (approach, force, filtered) = np.full(steps, np.nan), np.full((3, rounds * steps), np.nan)
+    constant = np.tile(still, rounds)
     tracks = {
-        "constant": np.tile(still, rounds),
-        "moving": lift(case.wheel, force, approach),
+        "constant": constant,
+        "moving": while_in_contact(lift(case.wheel, force, approach), constant),
         "force": force,
+        "filtered": filtered,
         "linear": np.tile(case.linear.change[:, 0] / case.wheel.stiffness, rounds),
         "line": np.tile(linear_displacement(case.strip, LINE), rounds),
     }
@@ -125,9 +157,28 @@ def roll_and_move(case: WheelOnRail) -> Outcome:
     return {
         **seen,
         "inferred": over_dynamic_stiffness(case, seen["force"]),
-        "airborne": np.mean(np.where(np.isnan(force), np.nan, force <= 0)),
+        "airborne": share_without_contact(force),
+        "airborne_filtered": share_without_contact(filtered),
         "failed": np.array(failed),
     }
+
+
+def share_without_contact(force: FloatArray) -> FloatArray:
+    return np.asarray(np.mean(np.where(np.isnan(force), np.nan, force <= 0)))
+
+
+def while_in_contact(moving: FloatArray, constant: FloatArray) -> FloatArray:
+    """What lifts the wheel in motion, where nothing lifts it in flight: constant + (moving - constant) / share.
+
+    moving: NaN in flight, where its difference to the lift at constant load is left out. share: of the steps in
+    contact, so that a lift that is some factor of the constant one has this factor, however often the wheel flies.
+    """
+    contact = ~np.isnan(moving)
+    if not contact.any():
+        return moving
+    difference = np.where(contact, moving - constant, 0.0)
+    off = np.where(contact, difference - difference.sum() / contact.sum(), 0.0)
+    return np.asarray(constant + off / contact.mean())
 
 
 def hann(points: int) -> FloatArray:
@@ -136,22 +187,25 @@ def hann(points: int) -> FloatArray:
 
 
 def over_dynamic_stiffness(case: WheelOnRail, force: FloatArray) -> FloatArray:
-    """F (1/k - 1/(M w^2 - i c w)) in steps of velocity Verlet: what lifts a wheel on a linear contact."""
-    wheel, omega = case.wheel, 2 * math.pi * np.fft.rfftfreq(force.size, case.time_step)[1:]
-    oscillator = {"stiffness": wheel.stiffness, "mass": wheel.mass, "damping": wheel.damping}
-    body = dynamic_stiffness(omega, time_step=case.time_step, **oscillator) - wheel.stiffness
+    """F (1/k + 1/D) in steps of velocity Verlet, D = -(M w^2 - i c w): what lifts a wheel on a linear contact.
+
+    On a rail that gives way 1/D is the sum over the wheel and the rail.
+    """
+    wheel, omega = case.wheel, np.asarray(2 * math.pi * np.fft.rfftfreq(force.size, case.time_step)[1:])
     waves = np.fft.rfft(force)
     waves[0] = 0.0
-    waves[1:] *= 1 / wheel.stiffness + 1 / body
+    waves[1:] *= 1 / wheel.stiffness + 1 / in_series(dynamic_mass(wheel, omega, case.time_step))
     return np.fft.irfft(waves, force.size)
 
 
 def lift(wheel: Wheel, force: FloatArray, approach: FloatArray) -> FloatArray:
-    """r = d_Hertz(F) - d: the approach of the smooth wheel under that force, less the true one [m].
+    """r = d_Hertz(F) - d: the approach of the smooth wheel under that force, less the true one [m]; NaN in flight.
 
-    A wheel that vibrates on a smooth rail has r = 0, however far it moves; under its load r is -(d - d_N).
+    A wheel that vibrates on a smooth rail has r = 0, however far it moves; under its load r is -(d - d_N). Without a
+    force d is the height of the flight, which the roughness does not set.
     """
-    return np.asarray(wheel.approach * (np.maximum(force, 0.0) / wheel.load) ** (2 / 3) - approach)
+    hertz = wheel.approach * (np.maximum(force, 0.0) / wheel.load) ** (2 / 3)
+    return np.asarray(np.where(force > 0, hertz - approach, np.nan))
 
 
 def at_constant_load(case: WheelOnRail) -> FloatArray:
@@ -163,10 +217,10 @@ def at_constant_load(case: WheelOnRail) -> FloatArray:
     return np.asarray(case.wheel.approach - approach)
 
 
-def in_motion(case: WheelOnRail) -> tuple[FloatArray, FloatArray]:
+def in_motion(case: WheelOnRail, law: ContactLaw) -> tuple[FloatArray, FloatArray]:
     """Approach and force at the beginning of each step of the rounds that are kept."""
     before, kept = (rounds * case.strip.shape[0] for rounds in case.rounds)
-    motion = simulate_from_linear_motion(case.law(), case.linear, case.time_step, before + kept, path=True)
+    motion = simulate_from_linear_motion(law, case.linear, case.time_step, before + kept, path=True)
     assert motion.path is not None
     assert motion.force is not None
     return motion.path[before:, 0], motion.force[before:, 0]

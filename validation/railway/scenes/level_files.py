@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import finite
-from validation.analysis.escapes import printable, quoted
+from validation.analysis.escapes import one_line, printable, quoted
 from validation.analysis.spectra import NominalBands, nominal_wavelength
 from validation.analysis.statistics import FloatArray
 from validation.railway.theory.transverse_structure import LineSpectrum
@@ -18,7 +18,7 @@ from validation.scenes.number_table import NumberTable
 from validation.scenes.reader import DECIBELS, Reader, errors_of, table, value_of_one_key, values
 from validation.scenes.table_files import FORM, read_scene_table, read_table, sentence_about
 from validation.scenes.text_dialect import RADIANS, WAVENUMBERS
-from validation.scenes.units import UNITS, metres_of
+from validation.scenes.units import UNITS, in_unit, metres_of
 
 MICROMETRE = 1e-6
 LEAST, MOST = -100.0, 50.0
@@ -58,6 +58,10 @@ class RoughnessLevels:
                     f"levels must lie between {LEAST:g} and {MOST:g} dB re 1 um, got {level:g} dB at "
                     f"{wavelength * 1000:g} mm: is the unit another?"
                 )
+
+    def __repr__(self) -> str:
+        ends = " to ".join(in_unit(wave, "length") for wave in (self.wavelengths[0], self.wavelengths[-1]))
+        return one_line(f"RoughnessLevels({len(self.levels)} bands, {ends}, source={self.source!r})")
 
     @classmethod
     def of_powers(cls, bands: NominalBands, powers: ArrayLike, *, source: str, **faults: Any) -> "RoughnessLevels":

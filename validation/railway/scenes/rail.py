@@ -32,11 +32,13 @@ from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured_heights import MeasuredHeights, check_covers
+from validation.scenes.rail_impedance import RailImpedance
 from validation.scenes.reader import errors_of
 from validation.scenes.scene import ENSEMBLE_MEAN, LATER, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
-from validation.scenes.wheel_body import check_damping
+from validation.scenes.wheel_body import MAX_FORCE, check_damping
 from validation.theory.half_space import EllipticContact, elliptic_contact
+from validation.theory.rolling import contact_resonance
 
 Across = Literal["ridges", "isotropic"] | float | None
 """What lies across a measured line: ridges; isotropic ground; waves with |k_y| < alpha k_x; None: nobody knows."""
@@ -52,6 +54,8 @@ SOUND_POWER = SceneQuantity("sound-power", "pW", in_bands=True)
 QUANTITIES = CONTACT_FILTER, EQUIVALENT_ROUGHNESS, SOUND_POWER
 MAX_PRESSURE = 4e9
 """Largest pressure [Pa] that a half-space of steel is asked for."""
+POINTS = 400
+"""To a band, of the force in motion."""
 HALF_HEAD = 0.036
 """Half of the width of the head of a rail [m], 72 mm of 60E1."""
 WIDE = 0.1
@@ -67,7 +71,7 @@ LONGEST_OF_CONTACT, SHORTEST_OF_CONTACT = 10.0, 0.45
 
 
 @renamed_field("across", "lateral_structure")
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class RailScene(SceneDefaults):
     """A wheel that rolls along a rail with rough surfaces.
 
@@ -97,6 +101,8 @@ class RailScene(SceneDefaults):
         What was assumed where the scene was made, in sentences.
     damping : float, optional
         Damping ratio of a wheel with a mass, as of `RollingScene`. None by default.
+    impedance : RailDashpot, FreeBeam or None, optional
+        Of the rail under a wheel with a mass: a dashpot with or without a mass, or a free beam. None: a rigid rail.
     track : str or None, optional
         Column of table G-3a of CNOSSOS-EU, as "M/S"; None: "M/M".
     transfer : int or None, optional
@@ -136,6 +142,7 @@ class RailScene(SceneDefaults):
     lateral_structure: Across = None
     notes: tuple[str, ...] = ()
     damping: float = 0.0
+    impedance: RailImpedance | None = field(default=None, metadata=LATER)
     track: str | None = field(default=None, metadata=LATER)
     transfer: int | None = field(default=None, metadata=LATER)
     axles: int | None = field(default=None, metadata=LATER)
@@ -144,6 +151,11 @@ class RailScene(SceneDefaults):
         optional = ("wheel.transverse_radius", "rail.crown_radius", "wheel.speed", "wheel.mass")
         check_scene(self, ("wheel.radius", "wheel.load"), optional)
         check_damping(self.damping, self.mass)
+        if self.impedance is not None and self.mass is None:
+            raise ValueError(
+                "rail.impedance needs a mass: under a constant load a rail does not move, got it alone, as: "
+                'mass = "500 kg" of wheel'
+            )
         if self.transverse_radius is None and self.crown_radius is None:
             raise ValueError(
                 "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"
@@ -234,6 +246,38 @@ class RailScene(SceneDefaults):
         return math.nan if self.speed is None else self.speed / wavelength
 
     @property
+    def force_in_motion(self) -> float:
+        """Rms change of the contact force by linear theory, over the load; NaN without mass and speed.
+
+        <F^2> = sum over bands of <r^2> abs(1 / (1/k + R_wheel + R_rail))^2, R the receptances -1 / (M w^2 - i c w) and
+        1 / (i w Z), r the levels through the filter of ridges, sin(k a_x) / (k a_x). Infinite at a resonance that
+        nothing damps.
+        """
+        if self.mass is None or self.speed is None:
+            return math.nan
+        edges, k = np.log(self.levels.bands.edges), self.contact.stiffness
+        q = np.exp(edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS))
+        omega, dashpot = q * self.speed, 2 * self.damping * math.sqrt(k * self.mass)
+        compliance = np.asarray(1 / k - 1 / (self.mass * omega**2 - 1j * dashpot * omega), dtype=np.complex128)
+        if self.impedance is not None:
+            compliance = compliance + 1 / (1j * omega * self.impedance.impedance(omega))
+        elif not self.damping and omega[0, 0] < math.sqrt(k / self.mass) < omega[-1, -1]:
+            return math.inf
+        passed = np.mean((np.sinc(q * self.contact.along / np.pi) / np.abs(compliance)) ** 2, axis=1)
+        power = MICROMETRE**2 * 10 ** (self.roughness_levels / 10)
+        return math.sqrt(float(np.sum(power * passed))) / self.load
+
+    @property
+    def resonance(self) -> float:
+        """Of wheel and rail on the contact spring [Hz]; NaN without a mass."""
+        if self.mass is None:
+            return math.nan
+        if self.impedance is None:
+            return math.sqrt(self.contact.stiffness / self.mass) / (2 * math.pi)
+        wheel = {"stiffness": self.contact.stiffness, "mass": self.mass}
+        return contact_resonance(impedance=self.impedance.impedance, **wheel) / (2 * math.pi)
+
+    @property
     def statistic(self) -> str:
         """Of strips that are drawn."""
         return ENSEMBLE_MEAN
@@ -305,6 +349,7 @@ class RailScene(SceneDefaults):
             ("approach d", _short(contact.approach)),
             ("peak pressure p0", in_unit(contact.pressure, "pressure", digits=3)),
             ("motion", self._motion()),
+            *self._dynamics(),
             ("roughness", f"rms {_short(levels.rms)} over all bands: {self._source()}"),
             ("bands", f"{len(levels.bands)} one-third octaves, {levels.bands.span}"),
             ("rms slope h'", f"{slope:.3g} along the track, of all bands, h' a_x/d = {ratio:.3g}"),
@@ -332,6 +377,18 @@ class RailScene(SceneDefaults):
             return "none: wavelengths have no frequencies"
         mass = "" if self.mass is None else f"mass {in_unit(self.mass, 'mass')}"
         return ", ".join(filter(None, (f"speed {3.6 * self.speed:.5g} km/h", mass, damping_of(self.damping))))
+
+    def _dynamics(self) -> Pairs:
+        """The rail, the resonance and the force of a wheel with a mass; nothing of one without."""
+        if self.mass is None or self.speed is None:
+            return ()
+        rail, force = "rigid", self.force_in_motion
+        if self.impedance is not None:
+            z = abs(complex(self.impedance.impedance(2 * math.pi * self.resonance)))
+            rail = f"{self.impedance.description}, abs(Z) = {z:.3g} N s/m at the contact resonance"
+        rms = f"rms {100 * force:.3g} % of the load" if math.isfinite(force) else "unbounded, nothing damps it"
+        motion = f"contact resonance {self.resonance:.4g} Hz; force by linear theory {rms}"
+        return ("impedance of the rail", rail), ("wheel in motion", motion)
 
     def _source(self) -> str:
         if isinstance(self.roughness, MeasuredHeights):
@@ -387,6 +444,12 @@ class RailScene(SceneDefaults):
             yield (
                 f"roughness is known in bands of {bands.span}: the others of {NominalBands().span} are missing, and "
                 "have no answer."
+            )
+        if self.force_in_motion > MAX_FORCE:
+            yield (
+                f"in motion the contact force changes by {self.force_in_motion:.3g} of the load, root mean square by "
+                f"linear theory, more than {MAX_FORCE:g}: the wheel leaves the rail at times; the contact filter is "
+                "that of a constant load."
             )
         if (lines := self.parallel_lines) is not None and lines.shifts.any():
             shown = ", ".join(f"{1e3 * shift:g}" for shift in lines.shifts)

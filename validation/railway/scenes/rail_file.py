@@ -13,6 +13,7 @@ from validation.railway.scenes.transverse_profile import TransverseProfile, both
 from validation.scenes.material import material_of
 from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import heights_of
+from validation.scenes.rail_impedance import read_impedance
 from validation.scenes.reader import (
     NUMBER,
     POSITIVE,
@@ -74,6 +75,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "notes": (*of_load, *of_roughness, *notes),
         **{key: wheel[key] for key in ("speed", "mass", "damping", "transfer", "axles") if key in wheel},
         **{key: rail[key] for key in ("track",) if key in rail},
+        "impedance": read_impedance(rail.get("impedance", "rigid"), {key: rail[key] for key in BEAM if key in rail}),
     }
     of_rail = value_of_one_key(rail, "rail", ("crown_radius", "profile"), least=0)
     of_wheel = value_of_one_key(wheel, "wheel", ("transverse_radius", "profile"), least=0)
@@ -183,5 +185,14 @@ class RailReader:
 LOADED = values("radius", "diameter", "transverse_radius", "load", "axle_load", "wheels_per_axle")
 WHEEL = LOADED | values("speed", "mass", "damping") | {"offset": partial(quantity, dimension="length")}
 WHEEL |= {"transfer": _diameter, "axles": WHOLE}
-RAIL = {**values("crown_radius"), "lateral_structure": _across, **values("lateral_ratio"), "track": nonblank_text}
+BEAM: dict[str, Reader] = {"bending_stiffness": POSITIVE, "mass_per_length": POSITIVE}
+"""N m^2 and kg/m, of a free beam."""
+RAIL: dict[str, Reader] = {
+    **values("crown_radius"),
+    "lateral_structure": _across,
+    **values("lateral_ratio"),
+    "impedance": lambda name, value: value,
+    "track": nonblank_text,
+    **BEAM,
+}
 """How each value of a scene file is read."""

@@ -29,6 +29,35 @@ def half_space_filter(along: ArrayLike, across: ArrayLike, *, semi_axes: tuple[f
     return np.asarray(np.sinc(_phase(along, across, semi_axes) / np.pi))
 
 
+def corrugation_harmonic(phase: ArrayLike) -> FloatArray:
+    """r_2 d / A^2: amplitude of cos(2 k x) that a ridge A cos(k x) makes at constant load, on a circle of radius a.
+
+    The edge moves by what the flat punch leaves there, U(t) = sum_n e_n i^n sqrt(pi s / 2) J_(n-1/2)(s) cos(n t),
+    s = k a, and with the wheel's own motion, -S = -sin(s) / s, the force is F''(d) / 2 times the mean square of both
+    around the edge: r_2 d / A^2 = (sum_n (-1)^n e_n (pi s / 2) J_(n-1/2)(s)^2 - 2 S cos s + S^2) / 8, e_0 = 1, else 2.
+    Of second order in A / d. Springs on a line have cos(2 s) in the place of the sum: their edge has two points.
+    Source: the intensity of the pressure at the edge of a flat punch, Johnson, Contact Mechanics, chapter 3.
+    phase: k a, zero or positive [-].
+    """
+    s = np.asarray(phase, dtype=np.float64)
+    n = np.arange(2 * int(s.max(initial=1.0)) + 20)
+    signs = np.where(n == 0, 1, 2) * (-1.0) ** n
+    x = np.maximum(s, 1e-9)[..., np.newaxis]
+    edge = np.sum(signs * math.pi / 2 * x * special.jv(n - 0.5, x) ** 2, axis=-1)
+    return _with_wheel(edge, s)
+
+
+def corrugation_harmonic_of_springs(phase: ArrayLike) -> FloatArray:
+    """r_2 d / A^2 of springs on a line, (cos 2s - 2 S cos s + S^2) / 8, as `corrugation_harmonic`."""
+    s = np.asarray(phase, dtype=np.float64)
+    return _with_wheel(np.cos(2 * s), s)
+
+
+def _with_wheel(edge: FloatArray, s: FloatArray) -> FloatArray:
+    moved = np.sinc(s / np.pi)
+    return np.asarray((edge - 2 * moved * np.cos(s) + moved**2) / 8)
+
+
 def spring_bed_filter(along: ArrayLike, across: ArrayLike, *, semi_axes: tuple[float, float]) -> FloatArray:
     """2 J_1(S) / S: a two-dimensional bed of equal springs that keep their contact, the linear DPRS.
 

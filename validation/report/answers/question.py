@@ -7,6 +7,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from validation.analysis.evidence import Evidence
 from validation.analysis.number_text import in_seconds
 from validation.benchmarks.timing import FINISHED
@@ -19,7 +21,7 @@ from validation.report.answers.strip import Source
 TIMES = "precision"
 """The case that times all methods."""
 ENOUGH = {"%": 10.0, "dB": 1.0}
-"""Largest error of what is enough, as in the verdicts of `precision`."""
+"""Tolerances of `precision`, the loosest in per cent."""
 Timed = Callable[[Evidence], str]
 
 
@@ -28,13 +30,15 @@ def timed_at(
 ) -> tuple[str, str] | None:
     """Median seconds and the setting of a method on a scene, None without one.
 
-    On the coarsest grid that is enough for a quantity; without one on the finest up to some cells.
+    On the coarsest grid whose error, and that of all finer ones, is within 10 %; without a quantity on the finest up
+    to some cells.
     """
     points = evidence.table(POINTS).where(scene=scene, method=method, status=FINISHED)
     if quantity:
         points = points.where(quantity=quantity)
-        close = points.rows(points["error"] + points["± sample"] <= ENOUGH["%"] / 100)
-        at = 0
+        # the coarsest from which on no finer one has a larger error
+        largest = np.maximum.accumulate(points["error"][::-1])[::-1]
+        close, at = points.rows(largest <= ENOUGH["%"] / 100), 0
     else:
         close, at = points.rows(points["value"] <= most), -1
     return (in_seconds(close["median [s]"][at]), close["setting"][at]) if len(close["value"]) else None

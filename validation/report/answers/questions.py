@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
-from validation.analysis.number_text import level_as_factor, level_in_decibels, level_in_per_cent
+from validation.analysis.number_text import level_in_decibels, level_in_per_cent
 from validation.analysis.quantity import RMS_FORCE
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
@@ -26,6 +26,7 @@ from validation.report.answers.question import (
 )
 from validation.report.answers.strip import Source
 from validation.report.contents import CASES
+from validation.simulation.model_names import SPRINGS_ROLLING
 
 LINEAR_3D = wheel.LINEAR_3D
 PRESSED = Alternative(BEM, timed=a_surface())
@@ -60,13 +61,6 @@ OF_THE_CORE = (
         (Alternative(BEM, timed=a_surface(punch.DEVIATION)),),
     ),
     Question(
-        "area-and-gap",
-        "True contact area and mean gap of a rough punch, ensemble means",
-        of_rolled_off(quantity=(interface.AREA, interface.GAP)),
-        level_as_factor,
-        (PRESSED,),
-    ),
-    Question(
         "roll-off",
         "Stiffness of a rough punch with a roll-off, ensemble mean",
         of_rolled_off(quantity=interface.STIFFNESS),
@@ -87,6 +81,7 @@ OF_THE_CORE = (
         level_in_decibels,
         (
             IN_3D(of_rolling(quantity=rolling.RMS_LEVEL, model=LINEAR)),
+            Alternative(SPRINGS_ROLLING, of_rolling(quantity=rolling.RMS_LEVEL, model=SPRINGS_ROLLING + rolling.OVER)),
             Alternative(reduced.PRINTED[reduced.COARSEST], of_strips(model=reduced.COARSEST), timed=a_track(4)),
             JUDGE,
         ),
@@ -98,6 +93,7 @@ OF_THE_CORE = (
         level_in_decibels,
         (
             Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
+            Alternative(SPRINGS_ROLLING, of_wheel(model=wheel.OVER_BEM[wheel.ROLLING])),
             Alternative(f"{BEM} in the time loop", timed=a_wheel),
         ),
         of_scene=(WHEEL, rolling.SLOPE),

@@ -23,6 +23,9 @@ def describe(making: argparse.ArgumentParser) -> None:
         command=report, only=None, keep=False, workers=1, executor=None, scene=None, solver=None, timed=timed
     )
     add_profile(making)
+    making.add_argument(
+        "--verbose", "-v", action="store_true", help="print all claims and conclusions of each case, too"
+    )
     if timed:
         making.set_defaults(only=[("race" if name == BENCHMARK else name,)])
         out = ("--out", "DIR", Path, f"folder (default: reports/{name}-quick or reports/{name})")

@@ -17,6 +17,7 @@ from validation.report.figures import precision, race
 
 OWN: Mapping[str, Callable[..., Figure]] = {
     "precision": precision.draw,
+    "precision-interface": precision.draw_interface,
     "precision-others": precision.draw_others,
     "race": race.draw,
 }

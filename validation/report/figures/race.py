@@ -35,11 +35,10 @@ def styles_of(names: Sequence[str]) -> dict[str, Style]:
 
 
 def draw(heats: Table) -> Figure:
-    """Times, their ratios to ours, and how they grow."""
+    """Times, operator applications, times relative to ours, and how times grow."""
     problems, names = (list(dict.fromkeys(heats[name].tolist())) for name in ("problem", "solver"))
-    figure, (time, ratio, growth) = panels(1, 3, heights=[1.6 + 0.22 * len(problems)])
-    ratio.sharey(time)
-    ratio.tick_params(labelleft=False)
+    figure, (time, work, ratio, growth) = panels(2, 2, heights=2 * [1.6 + 0.16 * len(problems)])
+    by_problem = (time, work, ratio)
     ours = heats.where(solver="bem3d")
     our_seconds = dict(zip(ours["problem"], ours["median [s]"], strict=True))
     styles = styles_of(names)
@@ -51,18 +50,21 @@ def draw(heats: Table) -> Figure:
         # one that finishes nowhere is in the table alone
         style: Style = {"markersize": 4, **styles[name], "label": name if place.size else "_"}
         time.errorbar(rows["median [s]"], place, xerr=bars, **style, **BARS)
+        # NaN where a solver does not count
+        work.plot(rows["operator applications"], place, **style)
         if name != "bem3d" and place.size:
             ratio.errorbar(rows["median [s]"] / unit, place, xerr=bars / unit, **style, **BARS)
     ratio.axvline(1.0, color="#000000", linewidth=1.0)
-    time.set(xscale="log", xlabel="time [s]")
-    ratio.set(xscale="log", xlabel="time over bem3d")
-    for axis in (time, ratio):
-        axis.xaxis.set_major_locator(LogLocator())
+    time.set(xlabel="time [s]")
+    work.set(xlabel="operator applications")
+    ratio.set(xlabel="time / time of bem3d")
+    for axis in by_problem:
+        axis.set(xscale="log", ylim=(len(problems) - 0.5, -0.5))
+        axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if axis is work else (1.0,)))
         axis.xaxis.set_major_formatter("{x:g}")
         axis.minorticks_off()
+        axis.set_yticks(range(len(problems)), problems if axis is not work else [])
     _draw_growth(growth, heats, styles)
-    time.set_yticks(range(len(problems)), problems)
-    time.invert_yaxis()
     name_curves(figure, [time], 1)
     return figure
 
