@@ -14,7 +14,7 @@ from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units
 from bem3d.problem import Problem
-from bem3d.results import ReadOnly, kept, map_of, span
+from bem3d.results import ReadOnly, kept, line, map_of, span
 from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class Contact(ReadOnly):
 
     def __repr__(self) -> str:
         load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}, area={span(self.area, 'm^2')}"
-        return f"Contact({load}, {self.status}, iterations={self.iterations})"
+        return line(f"Contact({load}, {self.status}, iterations={self.iterations})")
 
     @property
     def force(self) -> float:

@@ -22,7 +22,7 @@ from bem3d.contact import residual
 from bem3d.convergence import ConvergenceError
 from bem3d.halfspace import HalfSpace
 from bem3d.projected_cg import Load, projected_cg
-from bem3d.results import ReadOnly, span
+from bem3d.results import ReadOnly, line, span
 from bem3d.window import dots
 
 CellArray = NDArray[np.int32]
@@ -90,7 +90,7 @@ class FewCellsContact(ReadOnly):
 
     def __repr__(self) -> str:
         load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}"
-        return f"FewCellsContact(cells={len(self.cells)}, {load}, stiffness={span(self.stiffness, 'N/m')})"
+        return line(f"FewCellsContact(cells={len(self.cells)}, {load}, stiffness={span(self.stiffness, 'N/m')})")
 
     @property
     def residual(self) -> float:

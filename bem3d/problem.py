@@ -8,7 +8,7 @@ from functools import cached_property
 from bem3d.checks import FloatArray, boolean, field, finite, not_negative
 from bem3d.diagnostics import typical_slope
 from bem3d.halfspace import HalfSpace
-from bem3d.results import ReadOnly, kept, span
+from bem3d.results import ReadOnly, kept, line, span
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -66,7 +66,7 @@ class Problem(ReadOnly):
         load = f"{given[0]}={span(given[1] or 0.0, given[2])}"
         more = ", periodic" * self.half_space.periodic + ", indenter_ends_at_edge" * self.indenter_ends_at_edge
         modulus = span(self.half_space.modulus, "Pa")
-        return f"Problem({cells} cells, modulus={modulus}, gap={span(self.gap, 'm')}, {load}{more})"
+        return line(f"Problem({cells} cells, modulus={modulus}, gap={span(self.gap, 'm')}, {load}{more})")
 
     def _check_load(self) -> None:
         if (self.approach is None) == (self.force is None):

@@ -49,6 +49,11 @@ def span(values: float | FloatArray, unit: str) -> str:
     return f"{lowest} {unit}" if lowest == highest else f"{lowest}..{highest} {unit}"
 
 
+def line(text: str) -> str:
+    """What a result prints, cut from 100 characters on."""
+    return text if len(text) < 100 else f"{text[:95]}...{text[-1]}"
+
+
 def pair(unit: str, along: float, across: float) -> str:
     """One number for both axes where they are equal, or two: "0.5 x 0.3 m"."""
     both = [short(along, 4), short(across, 4)]

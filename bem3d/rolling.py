@@ -13,7 +13,7 @@ from bem3d.checks import FloatArray, OneOrTwo, count, positive
 from bem3d.convergence import ConvergenceError
 from bem3d.diagnostics import warn
 from bem3d.progress import Progress, steps
-from bem3d.results import ReadOnly, span
+from bem3d.results import ReadOnly, line, span
 from bem3d.rolling_contact import RollingContact, WheelContact
 from bem3d.rolling_frame import Track
 
@@ -53,7 +53,7 @@ class Rolling(ReadOnly):
 
     def __repr__(self) -> str:
         load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}, area={span(self.area, 'm^2')}"
-        return f"Rolling({load}, {np.count_nonzero(self.converged)}/{self.converged.size} converged)"
+        return line(f"Rolling({load}, {np.count_nonzero(self.converged)}/{self.converged.size} converged)")
 
 
 def roll(

@@ -11,7 +11,7 @@ import numpy as np
 from bem3d.checks import FloatArray, count, finite, fraction, positive
 from bem3d.contact import Status
 from bem3d.projected_cg import Load
-from bem3d.results import span
+from bem3d.results import line, span
 from bem3d.rolling_frame import Frame, Spans, Track
 from bem3d.rolling_solve import FramePressure, FrameSolve
 from bem3d.window_solve import IterationState
@@ -57,7 +57,7 @@ class WheelContact:
 
     def __repr__(self) -> str:
         load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}, area={span(self.area, 'm^2')}"
-        return f"WheelContact({load}, {self.status}, iterations={len(self.history) - 1})"
+        return line(f"WheelContact({load}, {self.status}, iterations={len(self.history) - 1})")
 
     @property
     def residual(self) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 from bem3d.checks import BoolArray, FloatArray, IndexArray, OneOrTwo, grid_spacing, positive, positive_pair, strip
 from bem3d.diagnostics import ContactWarning, diagnose_sphere, diagnose_units, typical_slope
 from bem3d.halfspace import HalfSpace
-from bem3d.results import ReadOnly, kept, pair, span
+from bem3d.results import ReadOnly, kept, line, pair, span
 from bem3d.smooth_wheel import SmoothContact, checked_profile, equivalent_radius, smooth_contact, top_column
 from bem3d.window import Box, fast_side
 
@@ -81,7 +81,7 @@ class Track(ReadOnly):
         across = f"radius={radius}" if profile is None else f"radius={span(self.radii[0], 'm')}"
         across += "" if profile is None else f", transverse_profile={span(profile, 'm')}"
         height, modulus = span(self.height, "m"), span(self.modulus, "Pa")
-        return f"Track({cells} cells of {spacing}, height={height}, {across}, modulus={modulus})"
+        return line(f"Track({cells} cells of {spacing}, height={height}, {across}, modulus={modulus})")
 
     @cached_property
     def highest(self) -> float:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
 from mdr.diagnostics import diagnose_heights, diagnose_load, warn
-from mdr.results import ReadOnlyArrays, span
+from mdr.results import ReadOnlyArrays, line, span
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -45,7 +45,7 @@ class LoadPoint(ReadOnlyArrays, Generic[Value]):
 
     def __repr__(self) -> str:
         load = f"approach={span(self.approach, 'm')}, force={span(self.force, 'N')}"
-        return f"LoadPoint({load}, stiffness={span(self.stiffness, 'N/m')})"
+        return line(f"LoadPoint({load}, stiffness={span(self.stiffness, 'N/m')})")
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ class LoadCurve(ReadOnlyArrays):
 
     def __repr__(self) -> str:
         springs = f"{self.approach.size} springs of {span(self.spring, 'N/m')}"
-        return f"LoadCurve({springs}, approach={span(self.approach, 'm')}, force={span(self.force, 'N')})"
+        return line(f"LoadCurve({springs}, approach={span(self.approach, 'm')}, force={span(self.force, 'N')})")
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the force as a function of the approach from the first touch, exact between all points.

@@ -44,6 +44,11 @@ def span(values: float | FloatArray, unit: str) -> str:
     return f"{lowest} {unit}" if lowest == highest else f"{lowest}..{highest} {unit}"
 
 
+def line(text: str) -> str:
+    """What a result prints, cut from 100 characters on."""
+    return text if len(text) < 100 else f"{text[:95]}...{text[-1]}"
+
+
 def short(value: float, digits: int) -> str:
     """So many digits, and no zeros in the exponent: 1.23e-6."""
     return f"{value:.{digits}g}".replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")

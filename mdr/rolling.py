@@ -18,7 +18,7 @@ from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive
 from mdr.diagnostics import SpringContactWarning, diagnose_linearity, diagnose_slope, warn
 from mdr.elliptic_wheel import spring_wheel
-from mdr.results import ReadOnlyArrays, span
+from mdr.results import ReadOnlyArrays, line, span
 from mdr.spring_track import Near, SpringTrack
 
 
@@ -51,7 +51,7 @@ class RollingTrack(ReadOnlyArrays):
 
     def __repr__(self) -> str:
         load = f"force={span(self.force, 'N')}, approach={span(self.approach, 'm')}"
-        return f"RollingTrack({self.force.size} points, {load}, stiffness={span(self.stiffness, 'N/m')})"
+        return line(f"RollingTrack({self.force.size} points, {load}, stiffness={span(self.stiffness, 'N/m')})")
 
 
 BLOCK = 1024

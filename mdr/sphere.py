@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, doubles, finite, finite_array, held, not_negative, positive
 from mdr.diagnostics import diagnose_units, warn
-from mdr.results import span
+from mdr.results import line, span
 
 
 def sphere_profile(x: ArrayLike, *, radius: float) -> FloatArray:
@@ -79,7 +79,7 @@ class SphereContact:
     def __repr__(self) -> str:
         load = f"approach={span(self.approach, 'm')}, force={span(self.force, 'N')}"
         stiffness, radius = span(self.stiffness, "N/m"), span(self.contact_radius, "m")
-        return f"SphereContact({load}, stiffness={stiffness}, contact_radius={radius})"
+        return line(f"SphereContact({load}, stiffness={stiffness}, contact_radius={radius})")
 
 
 def press_sphere(

@@ -4,15 +4,24 @@ import ast
 import copy
 import csv
 import inspect
+import io
 import pickle
+import re
 import subprocess
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+import bem3d
+import mdr
 import validation
 from tests.seeded import catches
 from validation.__main__ import main
@@ -20,6 +29,7 @@ from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
 from validation.advice.scene_model import Answer
 from validation.advice.tolerance import Tolerance
+from validation.analysis.series import Series
 from validation.engine.street import HOUSES
 from validation.scenes.rolling import RollingQuantity
 from validation.simulation.method import Resolution
@@ -222,6 +232,101 @@ def test_a_judgement_is_copied_and_pickled_whole():
     judgement = validation.judge(flat)
     for other in (copy.copy(judgement), copy.deepcopy(judgement), pickle.loads(pickle.dumps(judgement))):
         assert (other.as_dict(), other.summary()) == (judgement.as_dict(), judgement.summary())
+
+
+PUNCH = validation.load_scene("rough_punch")
+NAMED = validation.stiffness_model("a model whose name is much longer than what a line has room for, by far and away")
+LONG = NAMED(lambda load, side: 1.0)
+
+
+@cache
+def judgement():
+    return validation.judge(NAMED(lambda side, modulus: 1.1523 * modulus * side))
+
+
+def printed():
+    """One of each kind that a person prints."""
+    result, judged, punch = spectrum(), judgement(), validation.compare(PUNCH, models=["fit", "mdr"])
+    body = bem3d.HalfSpace(shape=(32, 32), spacing=1e-5 / 3, modulus=1e11 / 3, periodic=True, planning="measure")
+    x = (np.arange(32) - 15.5) * 1e-5 / 3
+    contact = bem3d.solve(replace(body, periodic=False), (x[:, None] ** 2 + x**2) / 0.02, approach=1e-7 / 3)
+    curve = mdr.load_curve(x**2 / 3, length=1e-3 / 3, modulus=1e11 / 3)
+    track = bem3d.Track(height=np.outer(x, x) / 3, spacing=1e-5 / 3, radius=1 / 3, modulus=1e11 / 3)
+    return [
+        *(validation.load_scene(name) for name in ("sphere", "rolling_wheel", "rail", "table_14_1", "rough_wheel")),
+        *(PUNCH, replace(PUNCH, name="n" * 300), PUNCH.material, PUNCH.ground, PUNCH.ground.spectrum),
+        validation.MeasuredHeights(height=np.outer(x, x), spacing=(1e-5 / 3, 1e-5 / 7)),
+        *(result, comparison("failed"), replace(result, scene=replace(result.scene, name="n" * 300))),
+        *(item for found in (result, punch) for item in (found.models, *found.models, found.selection)),
+        *(model.model for model in punch.models),
+        *(model.model.model for model in punch.models),
+        *(judged, judged.numbers[0], judged.ranges[0], judged.tolerance, LONG),
+        *(body, contact, contact.problem, bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0)),
+        *(track, curve, curve.at_approach(1e-9 / 3), mdr.press_sphere(radius=1 / 3, modulus=1e11 / 3, force=1 / 3)),
+        mdr.SelfAffine(hurst=1 / 3, q_min=1e3 / 3, q_max=1e6 / 3, rms=1e-6 / 3),
+        *(validation.CASES["geike"], *validation.problems()),
+        Series("a quantity of which much is to be read [dB]", "a model", np.ones(300), along="x [mm]", at=np.ones(300)),
+        validation.load_scene("rail").roughness,
+    ]
+
+
+@catches("a result that prints all that it holds").at(
+    "validation.scenes.scene.SceneDefaults.__repr__", lambda scene: f"{vars(scene)}"
+)
+def test_a_result_prints_one_line():
+    for thing in printed():
+        line = repr(thing)
+        assert len(line) < 100 and line.isprintable() and " at 0x" not in line, line
+    assert repr(spectrum()).startswith("Comparison('Rolling wheel': force-spectrum, 9 bands ± ")
+    assert (
+        repr(comparison("accepted")) == "Comparison('Smooth sphere': stiffness = 2 N/m ± 30 % by 'model', within 20 %)"
+    )
+    assert "outside tolerance" in repr(judgement())
+
+
+@catches("a name that is markup").at("validation.analysis.contents.escape", str)
+def test_a_notebook_shows_the_answer_and_a_small_table_without_markup_of_others():
+    scene = replace(PUNCH, name="<script>alert(1)</script>")
+    result = validation.compare(scene, models=["fit", "mdr"])
+    for thing, first in ((scene, ""), (result, "stiffness = "), (judgement(), "a model whose name")):
+        html = thing._repr_html_()
+        assert "<script" not in html
+        body = ElementTree.fromstring(html)
+        answer, table = body.find("p/strong").text, body.find("table")
+        assert first in answer
+        assert 2 <= len(table.findall("tr")) <= 13
+        # neither black on black nor white on white
+        assert not re.search(r"(background|color: (?!inherit)|#[0-9a-f]{3})", html)
+    assert "&lt;script&gt;" in result._repr_html_() and "not asked" in result._repr_html_()
+
+
+@catches("a figure in the place of the axes of a user").at("validation.report.drawing.Axes", type("Axes", (), {}))
+def test_results_are_drawn_on_axes_of_a_user():
+    result = spectrum()
+    numbers = validation.compare(PUNCH, models=["fit", "mdr"])
+    for thing in (result, numbers, comparison("failed"), judgement()):
+        axis = Figure().add_subplot()
+        try:
+            assert thing.plot(axis) is axis and axis.get_title(loc="left")
+        except TypeError as error:
+            raise AssertionError from error
+        with pytest.raises(TypeError, match="ax must be an Axes of matplotlib, or None for a new figure, got Figure"):
+            thing.plot(Figure())
+    axis = Figure().add_subplot()
+    levels = result.plot(axis).lines[0].get_ydata()
+    assert levels == pytest.approx(result.value) and axis.get_ylabel() == "force-spectrum [dB re 1 N]"
+
+
+def test_a_name_of_a_user_is_no_formula_in_a_figure():
+    result = replace(spectrum(), scene=replace(spectrum().scene, name=r"$\frac{$ 5 $"))
+    axis = result.plot(Figure().add_subplot())
+    axis.figure.savefig(io.BytesIO())
+    assert r"$\frac{$ 5 $" in axis.get_title(loc="left")
+
+
+def test_without_axes_there_is_a_new_figure(monkeypatch):
+    monkeypatch.setattr(pyplot, "subplots", lambda **_: (None, Figure().add_subplot()))
+    assert isinstance(spectrum().plot(), Axes) and isinstance(judgement().plot(), Axes)
 
 
 def test_a_case_runs_from_its_settings():

@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 import bem3d
 from bem3d import contact, convolution
+from bem3d.results import map_of
 from bem3d.tangent_stiffness import solve_fixed_area
 from tests.oracles import dense_operator
 from tests.seeded import catches
@@ -196,3 +199,36 @@ def test_numbers_that_overflow_are_an_honest_failure(prescribed, side):
     assert contact.converged == (contact.residual <= contact.tolerance)
     if contact.converged:
         assert np.isfinite([contact.force, contact.approach]).all()
+
+
+def oblong():
+    """A ridge along the second axis, nearer to one end of the first."""
+    x, y = np.arange(12) - 3.0, np.arange(8) - 3.5
+    body = bem3d.HalfSpace(shape=(12, 8), spacing=(1e-4, 2e-4), modulus=1e11)
+    return bem3d.solve(body, 1e-7 * (x[:, None] ** 2 + 0.2 * y**2), approach=1e-6, indenter_ends_at_edge=True)
+
+
+@catches("a map whose axes are exchanged").at(
+    "bem3d.contact.map_of", lambda values, steps, *rest: map_of(values.T, steps[::-1], *rest)
+)
+def test_a_contact_is_drawn_on_axes_of_a_user():
+    contact, axis = oblong(), Figure().add_subplot()
+    assert contact.plot(axis) is axis
+    (image,) = axis.images
+    assert image.get_extent() == pytest.approx((0.0, 12e-4, 0.0, 16e-4))
+    # rows of an image are along y
+    assert np.array_equal(image.get_array().filled(0.0).T, contact.pressure)
+    gap = contact.plot(Figure().add_subplot(), quantity="gap").images[0].get_array().T
+    dense = (dense_operator(contact.problem.half_space) @ contact.pressure.ravel()).reshape(12, 8)
+    expected = contact.problem.gap + dense - contact.approach
+    assert np.array_equal(gap.mask, contact.pressure > 0) and gap.compressed() == pytest.approx(expected[~gap.mask])
+
+
+def test_a_map_of_nothing_else_is_refused(monkeypatch):
+    contact = oblong()
+    with pytest.raises(ValueError, match='quantity must be "pressure" or "gap", got \'force\''):
+        contact.plot(quantity="force")
+    with pytest.raises(TypeError, match="ax must be an Axes of matplotlib, or None for a new figure, got str"):
+        contact.plot("here")
+    monkeypatch.setattr(pyplot, "subplots", lambda **_: (None, Figure().add_subplot()))
+    assert contact.plot().images

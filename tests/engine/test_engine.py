@@ -7,17 +7,20 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import mdr
 from tests.engine.toys import ENVIRONMENT, ROOT, computed, other_toy, same, toy
 from tests.seeded import catches
 from validation.engine import engine as ensemble
 from validation.engine import sources
-from validation.engine.engine import Engine
+from validation.engine.engine import Engine, identity
 from validation.engine.realisations import random_generator
+from validation.simulation.method import Resolution
 
 
 def test_results_come_in_order_and_once(problems, tmp_path):
@@ -234,3 +237,32 @@ def test_the_source_is_read_when_the_code_is():
     code = "from validation.engine import engine, sources; print(sources.version_of_numerics.cache_info().currsize)"
     run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, encoding="utf-8")
     assert run.stdout == "1\n", run.stderr
+
+
+@dataclass(frozen=True)
+class Several:
+    """A problem that holds what problems hold."""
+
+    spectra: tuple[mdr.SelfAffine, ...]
+    places: list[float]
+    named: dict[str, float]
+    hidden: float = field(default=0.0, repr=False)
+    later: float | None = field(default=None, metadata={"later": True})
+
+    def __repr__(self) -> str:
+        return "Several(...)"
+
+
+@catches("a key of what a problem prints").at("tests.engine.test_engine.identity", repr)
+def test_a_key_has_all_digits_whatever_prints():
+    """Else two problems would share a stored result."""
+    near = [mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=2.0, rms=rms) for rms in (1.0, 1.0 + 1e-12)]
+    assert repr(near[0]) == repr(near[1]) and identity(near[0]) != identity(near[1])
+    assert identity(near[0]) == "SelfAffine(hurst=0.7, q_min=1.0, q_max=2.0, rms=1.0)"
+    several = Several((near[1],), [0.1 + 0.2], {"x": 1 / 3})
+    assert identity(several) == (
+        "Several(spectra=(SelfAffine(hurst=0.7, q_min=1.0, q_max=2.0, rms=1.000000000001),), "
+        "places=[0.30000000000000004], named={'x': 0.3333333333333333})"
+    )
+    assert identity(replace(several, later=1.0)) == identity(several)[:-1] + ", later=1.0)"
+    assert identity(Resolution(size=3)) == repr(Resolution(size=3))

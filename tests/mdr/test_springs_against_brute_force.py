@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 import mdr
 from mdr import foundation
@@ -109,3 +111,14 @@ def test_springs_under_a_parabola_tend_to_the_sphere_at_second_order(offset):
         x = (np.arange(-2 * cells, 2 * cells) + offset) / cells
         curve = mdr.load_curve(-mdr.sphere_profile(x, radius=1.0), length=4.0, modulus=1.0)
         assert curve.at_approach(1.0).force == pytest.approx(4 / 3, rel=0.5 / cells**2)
+
+
+def test_a_load_curve_is_drawn_on_axes_of_a_user(monkeypatch):
+    curve, axis = mdr.load_curve([-1e-6, -2e-6, -3e-6], length=3e-3, modulus=1e9), Figure().add_subplot()
+    assert curve.plot(axis) is axis and curve.plot(axis) is axis
+    for line in axis.lines:
+        assert np.array_equal(line.get_xdata(), curve.approach) and np.array_equal(line.get_ydata(), curve.force)
+    with pytest.raises(TypeError, match="ax must be an Axes of matplotlib, or None for a new figure, got str"):
+        curve.plot("here")
+    monkeypatch.setattr(pyplot, "subplots", lambda **_: (None, Figure().add_subplot()))
+    assert len(curve.plot().lines) == 1
