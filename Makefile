@@ -26,7 +26,7 @@ full-report: $(READY)  ## the real one: reports/full/index.html
 reference: $(PEERS)  ## the committed one, with the solver benchmark: reports/reference/index.html
 	$(RUN) validation report --profile full --out reports/reference; status=$$?; $(MAKE) answers; exit $$status
 
-answers: $(READY)  ## the table of README.md, from the results of the committed report
+answers: $(READY)  ## what README.md and the documentation quote: answers of the committed report, output of commands
 	$(VENV)/bin/python .ci/readme.py
 
 benchmark: $(PEERS)  ## solvers beside the peers, which it installs: reports/benchmark-quick/index.html

@@ -12,6 +12,7 @@ import bem3d
 import mdr
 import validation
 from validation.railway.scenes import rail_file
+from validation.simulation import limits
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "reports" / "docs"
@@ -121,7 +122,41 @@ def own_rail(folder):
     return folder / "my_rail.toml"
 
 
-def test_what_the_page_of_verdicts_shows_runs(capsys):
+def test_what_the_page_of_verdicts_shows_is_printed(capsys):
     (example,) = re.findall(r"```python\n(.*?)```", PAGES["verdicts"], flags=re.DOTALL)
     exec(compile(example, "verdicts", "exec"), {})
     assert "inconclusive\n" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_what_the_reference_of_models_says_is_printed(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (example,) = re.findall(r"```python\n(.*?)```", PAGES["own_model_reference"], flags=re.DOTALL)
+    exec(compile(example, "own_model_reference", "exec"), {})
+    first, second = capsys.readouterr().out.splitlines()
+    assert f"prints `{first}` and `{second}`." in PAGES["own_model_reference"]
+
+
+def test_the_tables_of_your_own_scene_make_a_scene(tmp_path):
+    material, roughness = re.findall(r"```toml\n(.*?)```", PAGES["own_scene"], flags=re.DOTALL)
+    own = tmp_path / "my_scene.toml"
+    own.write_text(f'name = "mine"\n[punch]\nside = "1 mm"\nload = "10 N"\n{material}\n{roughness}', encoding="utf-8")
+    scene = validation.load_scene(own)
+    assert scene.modulus == pytest.approx(210e9 / 2 / (1 - 0.3**2))
+    assert scene.ground.rms == pytest.approx(1e-6)
+
+
+def test_the_table_of_measured_heights_makes_a_scene(tmp_path):
+    (heights,) = (table for table in re.findall(r"```toml\n(.*?)```", PAGES["own_data"], re.DOTALL))
+    np.savetxt(tmp_path / "face.csv", np.random.default_rng(1).standard_normal((64, 48)), delimiter=",")
+    own = tmp_path / "my_scene.toml"
+    base = 'name = "mine"\n[punch]\nside = "48 um"\nload = "10 mN"\n[material]\ncontact_modulus = "115 GPa"\n'
+    own.write_text(base + heights, encoding="utf-8")
+    assert "48 x 48 points" in validation.load_scene(own).ground.waves
+
+
+def test_the_images_of_the_scope_are_those_of_the_limits():
+    share = 4 * limits.LATTICE / 3 / np.pi
+    for words in (f"{limits.LATTICE:.4f}", f"{share:.3f}", f"{share / 0.1:.1f}", f"{share / 0.01:.0f}"):
+        assert words in PAGES["scope"], words
+    assert f"{share:.3f} a/L" in (ROOT / "README.md").read_text(encoding="utf-8")

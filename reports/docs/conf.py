@@ -30,7 +30,7 @@ smartquotes = False
 default_role = "autolink"
 
 myst_enable_extensions = ["attrs_inline", "colon_fence", "dollarmath"]
-myst_heading_anchors = 3
+myst_heading_anchors = 4
 autosummary_generate = False
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"

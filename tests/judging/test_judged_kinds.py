@@ -293,7 +293,7 @@ def test_a_linear_contact_of_the_wheel_has_the_features_of_springs_and_a_stiff_o
 
 
 def test_the_page_has_the_numbers_of_the_wheel():
-    page, scene = (REPORT.parent / "docs" / "own_model.md").read_text(encoding="utf-8"), laws.table_14_1()
+    page, scene = (REPORT.parent / "docs" / "own_model_reference.md").read_text(encoding="utf-8"), laws.table_14_1()
     heights = f"rms {1e6 * scene.rail.rms:g} um, H = {scene.rail.hurst:g}, waves of {1e3 * scene.rail.longest:g} mm"
     rolled = f"{laws.WHEELS} wheels begin at rest between 0 and {laws.FARTHEST:g} m"
     of_each = f"roll {scene.distance:g} m each"

@@ -28,14 +28,14 @@ QUANTITIES = "area_fraction", "mean_gap", "stiffness"
 
 @runtime_checkable
 class InterfaceModel(Protocol):
-    """A model of an interface: a name and some of `QUANTITIES`."""
+    """A model of an interface: a name and some of ``QUANTITIES``."""
 
     @property
     def name(self) -> str: ...
 
 
 def quantities_of(model: InterfaceModel) -> tuple[str, ...]:
-    """Those of `QUANTITIES` that the model has."""
+    """Those of ``QUANTITIES`` that the model has."""
     return tuple(quantity for quantity in QUANTITIES if callable(getattr(model, quantity, None)))
 
 

@@ -2,6 +2,7 @@
 
 import ast
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -112,6 +113,12 @@ def index(names: list[str]) -> str:
     return INDEX.format(figures="\n".join(FIGURE.format(name=name) for name in names), entries="\n".join(names))
 
 
+def point_at_pages(_app: Sphinx, _name: str, source: list[str]) -> None:
+    """A link to a script, which a checkout has, becomes one to its page, which the site has."""
+    source[0] = re.sub(r"\]\(\.\./\.\./validation/examples/(\w+)\.py\)", r"](examples/\1.md)", source[0])
+    source[0] = source[0].replace("](../../validation/examples)", "](examples/index.md)")
+
+
 def _sources() -> list[Path]:
     """All that a script may read."""
     found = [path for package in ("mdr", "bem3d", "validation") for path in (ROOT / package).rglob("*.*")]
@@ -131,4 +138,5 @@ def _write(path: Path, text: str) -> None:
 def setup(app: Sphinx) -> ExtensionMetadata:
     """Build the pages before Sphinx looks for them."""
     app.connect("builder-inited", build)
+    app.connect("source-read", point_at_pages)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -46,6 +46,12 @@ def write(app: Sphinx) -> None:
             path.write_text(made, encoding="utf-8")
 
 
+def point_at_pages(_app: Sphinx, name: str, source: list[str]) -> None:
+    """A link to a page of the committed report becomes one to its page of the site."""
+    if "/" not in name:
+        source[0] = re.sub(r"\]\(\.\./reference/(\w+)\.html\)", rf"]({NAME}/\1.md)", source[0])
+
+
 def page(html: str) -> str:
     """The first heading is the title; all else in the body, but the navigation, is taken as it is."""
     body = html.partition('<main id="top">')[2].partition("</body>")[0].replace("</main>", "")
@@ -83,6 +89,7 @@ def copy(app: Sphinx, error: Exception | None) -> None:
 def setup(app: Sphinx) -> ExtensionMetadata:
     """Write the pages before Sphinx looks for them."""
     app.connect("builder-inited", write)
+    app.connect("source-read", point_at_pages)
     app.connect("html-page-context", headings, priority=600)
     app.connect("build-finished", copy)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

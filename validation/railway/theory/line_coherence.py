@@ -55,7 +55,7 @@ Kind = Literal["between", "at most", "at least", "not determined"]
 
 @dataclass(frozen=True)
 class LateralEstimate:
-    """alpha in one band, by lines. alpha: most likely; low, high: its 95 % interval, 0 to `LARGEST`, which stand for
+    """alpha in one band, by lines. alpha: most likely; low, high: its 95 % interval, 0 to ``LARGEST``, which stand for
     all lines alike and for any larger value; isotropic: whether isotropic ground is among what the lines may be of;
     waves: independent ones in the band.
     """
@@ -176,7 +176,7 @@ class BandOfLines:
     def of_waves(
         cls, lines: ParallelLines, q: FloatArray, waves: NDArray[np.complex128], independent: float
     ) -> "BandOfLines":
-        """Of all waves of a band, which are put together at `NODES` wavenumbers."""
+        """Of all waves of a band, which are put together at ``NODES`` wavenumbers."""
         cross, power = lines.forms
         products = np.einsum("ki,kj->ij", waves, waves.conj()).real
         r = np.tensordot(cross, products, 2) / np.tensordot(power, products, 2)

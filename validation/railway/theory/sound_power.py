@@ -64,7 +64,7 @@ def nearest_wheel(diameter: float) -> int:
 
 @dataclass(frozen=True)
 class SoundTransfer:
-    """From equivalent roughness to sound power. track: of `tracks`; wheel: of `wheels` [mm]; axles: N_a, 1 or more.
+    """From equivalent roughness to sound power. track: of ``tracks``; wheel: of ``wheels`` [mm]; axles: N_a, 1 or more.
 
     Raises ValueError, TypeError for any other value.
     """
@@ -106,7 +106,7 @@ class SoundTransfer:
 
 
 def in_frequency(levels: ArrayLike, wavelengths: ArrayLike, speed: float) -> FloatArray:
-    """Levels over wavelength as levels in the bands of `frequencies`, at f = v / lambda [dB].
+    """Levels over wavelength as levels in the bands of ``frequencies``, at f = v / lambda [dB].
 
     Each band takes the energies of the two bands of wavelength between whose nominal centres v / f lies, in proportion
     to the distances over lg(lambda), as the directive averages them. levels: (..., bands) [dB]; wavelengths: nominal,
@@ -130,12 +130,12 @@ def in_frequency(levels: ArrayLike, wavelengths: ArrayLike, speed: float) -> Flo
 
 
 def weighting() -> FloatArray:
-    """A-weighting of IEC 61672-1 in the bands of `frequencies`, at their exact centres 10^(n/10) Hz [dB]."""
+    """A-weighting of IEC 61672-1 in the bands of ``frequencies``, at their exact centres 10^(n/10) Hz [dB]."""
     return a_weighting(10 ** (np.rint(10 * np.log10(frequencies())) / 10))
 
 
 def weighted_total(levels: ArrayLike) -> float:
-    """Sum of the energies of A-weighted levels in the bands of `frequencies`, those that are not NaN [dB(A)]."""
+    """Sum of the energies of A-weighted levels in the bands of ``frequencies``, those that are not NaN [dB(A)]."""
     weighted = np.asarray(levels, dtype=np.float64) + weighting()
     present = weighted[~np.isnan(weighted)]
     return energy_sum(present) if present.size else math.nan
