@@ -416,7 +416,8 @@ def test_a_summit_beyond_four_times_the_roughness_is_under_the_sphere():
     x = (np.arange(128) - 63.5) * spacing
     whole = pressed_stiffness(ground.height - np.add.outer(x**2, x**2) / (2 * radius), spacing, load)
     (found,) = (model.solve() for model in grids_of(scene, "stiffness", 0.1))
-    assert found.value[0] == pytest.approx(whole, rel=1e-3)
+    # both are solved to a residual of 1e-4, which leaves some 1e-3 of a single stiffness
+    assert found.value[0] == pytest.approx(whole, rel=3e-3)
 
 
 def at_points(heights, shape, cell):

@@ -15,6 +15,7 @@ from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import POWER_DECIBEL, log_ratio_of_means
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling.force_spectrum import OVER, RMS_LEVEL, SPRINGS, octaves_of
+from validation.simulation.model_names import SPRINGS_ROLLING
 from validation.simulation.rolling_strip import level_3d
 
 ROLLING = rolling.ForceSpectrum(heights=(0.1,), last=4.5, lowest=0.5, length=32.0, strips=4, refined=3, tracks=30)
@@ -32,7 +33,8 @@ def rolled(rng, *, springs=1.2, finer=0.98, case=ROLLING):
     bem = outcome(exact, 1e-9, case.strips)
     refined = {"level": finer * bem["level"][: case.refined]}
     tracks = outcome(springs * exact, 0.1, case.tracks)
-    return Outcomes(case, {(rolling.BEM, 0.1): bem, (rolling.REFINED, 0.1): refined, (SPRINGS, 0.1): tracks})
+    of_springs = {(model, 0.1): tracks for model in (SPRINGS, SPRINGS_ROLLING)}
+    return Outcomes(case, {(rolling.BEM, 0.1): bem, (rolling.REFINED, 0.1): refined, **of_springs})
 
 
 @catches("decibels of an amplitude for those of a power, in rolling").at(

@@ -21,7 +21,7 @@ from validation.judging.kinds import from_report
 from validation.judging.kinds.held_out_points import THIRD, OblongStrip, roll_oblong
 from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models, wheel_on_rail
-from validation.railway.problems.equivalent_displacement import RolledRail, roll_rail
+from validation.railway.problems.equivalent_displacement import Corrugation, RolledRail, roll_corrugation, roll_rail
 from validation.railway.problems.rail_across import WideRail, roll_both_ways
 from validation.railway.problems.rail_sound import HeldWheel, roll_held_wheel
 from validation.railway.problems.wheel_on_rail import WheelOnRail, roll_and_move
@@ -82,10 +82,13 @@ PATHS = {
     f"{ON_A_RAIL}, at a constant height": lambda: roll_held_wheel(HELD),
     f"{ON_A_RAIL}, before it moves": lambda: roll_and_move(MOVING),
     "validation.railway.problems.wheel_on_rail:EllipseLaw": lambda: without_a_flag(
-        **dict(zip(("approach", "force"), wheel_on_rail.in_motion(MOVING), strict=True))
+        **dict(zip(("approach", "force"), wheel_on_rail.in_motion(MOVING, MOVING.law()), strict=True))
     ),
     "validation.benchmarks.work_precision.problem:_roll": lambda: without_a_flag(
         force=rolling_chart._roll(STRIP.surface(), 6, 1e-6)()
+    ),
+    "validation.railway.problems.equivalent_displacement:roll_corrugation": lambda: roll_corrugation(
+        Corrugation(phase=2.0, height=0.1, cells=6)
     ),
     "validation.simulation.exact_contacts:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)

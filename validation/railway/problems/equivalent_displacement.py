@@ -256,7 +256,10 @@ class Corrugation:
 
 
 def roll_corrugation(problem: Corrugation) -> Outcome:
-    """Amplitudes of cos(k x) and cos(2 k x) of the equivalent displacement: first over A, second over A^2 / d."""
+    """Amplitudes of cos(k x) and cos(2 k x) of the equivalent displacement: first over A, second over A^2 / d.
+
+    NaN where a position has not converged.
+    """
     contact = elliptic_contact((1.0, problem.crown), modulus=1.0, force=1.0)
     a, d = contact.along, contact.approach
     wave = 2 * math.pi / problem.phase
@@ -273,7 +276,8 @@ def roll_corrugation(problem: Corrugation) -> Outcome:
         tolerance=1e-7,
         raise_on_failure=False,
     )
-    amplitudes = 2 * np.fft.rfft(lifted(rolled.approach), norm="forward").real / (problem.height * d)
+    approach = np.where(rolled.converged, rolled.approach, np.nan)
+    amplitudes = 2 * np.fft.rfft(lifted(approach), norm="forward").real / (problem.height * d)
     return {
         "first": np.array(amplitudes[waves]),
         "second": np.array(amplitudes[2 * waves] / problem.height),
