@@ -50,7 +50,8 @@ def _values(scene, quantity):
         return np.array([5.4e7])
     rail = isinstance(scene, RailScene)
     bands = scene.bands(quantity) if rail else RollingQuantity(scene, quantity).bands.centres
-    return np.logspace(-3, 3, bands.size)
+    # from long waves to short ones a filter falls, so that bands count down to the first below its limit
+    return np.logspace(3, -3, bands.size) if rail else np.logspace(-3, 3, bands.size)
 
 
 @dataclass(frozen=True)

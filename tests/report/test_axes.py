@@ -25,6 +25,11 @@ from validation.report.style import EachNumber, drawn, plain_figure
 CHARTS = {
     chart.name: (name, chart) for name, case in (CASES | TIMED).items() for chart in case.study.charts if chart.panels
 }
+EARLIER = {
+    "interface": "the committed report has the stiffness over that of boundary elements in dB",
+    "rail_dynamic": "the committed report has one rail, and no column of rails",
+}
+"""Charts of tables that the committed report has in an earlier form; made anew, it fails here until these go."""
 FAMILIES = 12
 """Curves of a panel that are moved aside, or down."""
 Y = {
@@ -58,6 +63,7 @@ Y = {
         "A3 of the ellipse over that of a line",
     },
     "filter in motion [dB]": {"filter in motion"},
+    "force in motion [dB]": {"force in motion"},
     "filter inferred from the force [dB]": {"filter inferred from the force"},
     "time without contact [%]": {"time without contact"},
     "F, shifted [N]": {"contact force less its mean"},
@@ -169,8 +175,14 @@ def judged_lines(axis):
     return [line for line in axis.lines if same_color(line.get_color(), "#000000") and line.get_linewidth() == 2]
 
 
+def marks_of(name):
+    return pytest.mark.xfail(strict=True, raises=(AssertionError, ValueError), reason=EARLIER[name])
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CHARTS)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=marks_of(name)) if name in EARLIER else name for name in CHARTS]
+)
 def test_a_panel_has_the_axes_that_it_declares_and_draws_the_columns_that_they_name(name):
     case, chart = CHARTS[name]
     figure = draw(chart, evidence_of(case))

@@ -78,7 +78,7 @@ def test_a_unit_stands_in_the_header_and_comes_back(table, first):
         ("interface", "mean gap over h", "empty where a model"),
         ("rolling", "rms force", "ensemble mean"),
         ("rolling", "roughness found in a one-third octave", "empty where none is found"),
-        ("across", "largest alpha for one line", "searched from 0.1 to 8"),
+        ("across", "largest alpha for one line", "searched from 0.05 to 8"),
         ("across", "shortest wave within 1 dB of boundary elements [mm]", "empty where the longest"),
         ("across", "nearest to boundary elements", "searched from 0.05 to 20"),
         ("rail_sound", "level in one-third octaves", "empty below -40 dB"),

@@ -204,6 +204,9 @@ def _panels_of_sweep(comparisons: Sequence[Comparison]) -> Iterator[DrawnPanel]:
             table,
         )
     waves = _most_changing_waves(comparisons, PANELS - power) if first.is_level else [math.nan]
+    if not waves:
+        yield _empty_panel(first.quantity, "no band has a level that counts")
+        return
     table = _table_of_sweep(first.quantity, lines, {wave: partial(_interval_of_model, wave=wave) for wave in waves})
     facet = WAVELENGTH if first.is_level else ""
     yield replace(panel, facet=facet).of(*_curves(table.name, lines, bands=True)), table

@@ -14,9 +14,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
-from scipy.optimize import brentq
 
 from validation.theory.closed_forms import circular_punch_stiffness, positive
 from validation.theory.half_space import on_panels
@@ -59,7 +59,7 @@ def contact_resonance(*, stiffness: float, mass: float, impedance: Callable[[flo
     high = rigid
     while left(high) < 0:
         high *= 2
-    return float(brentq(left, rigid, high)) if high > rigid else rigid
+    return float(scipy.optimize.brentq(left, rigid, high)) if high > rigid else rigid
 
 
 def acceleration_over_force(

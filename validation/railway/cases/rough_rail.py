@@ -229,7 +229,7 @@ STUDY = Study(
         Chart("rough_rail-corrugation", claims=(1,)).of(
             "Amplitude of half the wavelength that a corrugation A cos(k x) makes at constant load, times d/A², over "
             "k a: boundary elements, 95 % of the grid, the closed second order of the half-space, and that of springs.",
-            Panel(PHASE, f"{HARMONIC} [-]", log="", lines=(0.0,)).of(
+            Panel(PHASE, str(HARMONIC), log="", lines=(0.0,)).of(
                 *by_model(HARMONIC, {SECOND_ORDER: "lines", named.SPRINGS_ON_LINE: "lines", BEM: "marks"}, bars=True)
             ),
         ),
