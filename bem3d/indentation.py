@@ -35,6 +35,15 @@ class LoadPath(Iterator[Contact]):
 
     Its arrays solve the loads that are left, whose contacts cannot be taken then.
 
+    Parameters
+    ----------
+    contacts : iterator
+        Contacts, each with what it warns of, solved when it is taken.
+    loads : ndarray, shape (loads,)
+        Prescribed approaches [m] or forces [N].
+    has_stiffness : bool
+        Whether each contact stores its ``frozen`` contact area.
+
     Attributes
     ----------
     loads : ndarray, shape (loads,)
@@ -165,8 +174,8 @@ def indent(
     >>> contacts = bem3d.indent(body, (x[:, None] ** 2 + x**2) / (2 * 0.1), approaches=[2e-6, 4e-6], stiffness=True)
     >>> [f"{contact.stiffness():.3g} N/m" for contact in contacts]
     ['9.01e+07 N/m', '1.26e+08 N/m']
-    >>> contacts.force, contacts.stiffness / 1e7
-    (array([118.9, 336.7]), array([ 9.01, 12.63]))
+    >>> print(*(f"{force:.4g} N" for force in contacts.force))
+    119.3 N 337.4 N
     """
     problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)

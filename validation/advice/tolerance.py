@@ -31,7 +31,21 @@ def percentage(level: float) -> float:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """relative: half-width over value; in_decibels: whether it was asked in dB, 20 lg(1 + relative)."""
+    """Largest error of an answer, with the unit in which it was asked.
+
+    Attributes
+    ----------
+    relative : float
+        Half-width of the 95 % interval over the value, positive.
+    in_decibels : bool
+        Whether it was asked in dB, 20 lg(1 + relative), and not in per cent.
+
+    Examples
+    --------
+    >>> tolerance = validation.compare(validation.load_scene("sphere"), "1 dB").tolerance
+    >>> print(tolerance, f"{tolerance.relative:.3f}")
+    1 dB 0.122
+    """
 
     relative: float
     in_decibels: bool = False

@@ -19,6 +19,11 @@ class Verdict(StrEnum):
 
     WITHIN, OUTSIDE: the whole 95 % interval lies within the tolerance, or outside; INCONCLUSIVE: it straddles the
     limit; NOT_SERVED: the model rejects the scene; NO_RESULT: the model failed.
+
+    Examples
+    --------
+    >>> [str(verdict) for verdict in validation.Verdict]
+    ['within tolerance', 'outside tolerance', 'inconclusive', 'not served', 'no result']
     """
 
     WITHIN = "within tolerance"

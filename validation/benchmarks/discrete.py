@@ -106,10 +106,34 @@ class ContactProblem:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class KnownContact(ContactProblem):
-    """A problem with its discrete answer.
+    """A problem with its discrete answer. Made by `problems`; arrays are read-only.
 
-    pressure (n, m) [Pa]; stiffness: dF/dd of the fixed contact [N/m]; area [m^2]; limits: approach, stiffness and area
-    on cells of no size, and the half-widths that the grids leave, (3, 2).
+    Attributes
+    ----------
+    name : str
+        One line of text.
+    gap : ndarray, shape (n, m)
+        Gap before the load [m].
+    spacing : (float, float)
+        Sides of a cell [m].
+    modulus : float
+        Contact modulus E* [Pa].
+    periodic : bool
+        Whether the half-space is.
+    force, approach : float
+        Of the answer [N], [m].
+    pressure : ndarray, shape (n, m)
+        Of the answer [Pa].
+    stiffness, area : float
+        dF/dd of the fixed contact area [N/m], infinite of a full periodic one, and the area under pressure [m^2].
+    limits : ndarray, shape (3, 2)
+        Approach, stiffness and area extrapolated to zero cell size, with the half-widths that the grids leave.
+
+    Examples
+    --------
+    >>> sphere = validation.problems()[0]
+    >>> sphere.name, sphere.pressure.shape == sphere.gap.shape
+    ('sphere', True)
     """
 
     pressure: FloatArray

@@ -205,8 +205,27 @@ class SolverTime(NamedTuple):
 class JudgedRange:
     """Neighbouring numbers of one verdict.
 
-    where: the conditions but for the parameter; along: the parameter, empty where there is none; start, stop: its
-    values at the first and the last number.
+    Attributes
+    ----------
+    quantity : str
+        What was computed.
+    where : Mapping
+        The conditions by name, but for the parameter.
+    along : str
+        The parameter, empty where there is none.
+    start, stop : float
+        Its values at the first and the last number.
+    verdict : Verdict
+        Of all of them.
+
+    Examples
+    --------
+    >>> @validation.stiffness_model("flat punch")
+    ... def flat(side, modulus):
+    ...     return 1.1523 * modulus * side
+    >>> first = validation.judge(flat).ranges[0]
+    >>> first.along, first.outcome
+    ('Fbar', 'outside tolerance')
     """
 
     quantity: str
