@@ -31,7 +31,21 @@ def percentage(level: float) -> float:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """relative: half-width over value; in_decibels: whether it was asked in dB, 20 lg(1 + relative)."""
+    """How far off an answer may be, with the unit in which that was asked.
+
+    Attributes
+    ----------
+    relative : float
+        Half-width over value, 0.05 for 5 %; of a text in (0, 1], of a number up to 2.
+    in_decibels : bool
+        Whether it was asked in dB of an amplitude, 20 lg(1 + ``relative``).
+
+    Examples
+    --------
+    >>> tolerance = validation.Tolerance(0.122, in_decibels=True)
+    >>> print(tolerance, tolerance.unit, tolerance.shown(0.05))
+    1 dB dB 0.42 dB
+    """
 
     relative: float
     in_decibels: bool = False

@@ -17,8 +17,23 @@ Place = str | float | tuple[float, float]
 class Verdict(StrEnum):
     """Of a number relative to its reference; the last two are of a model that has no number.
 
-    WITHIN, OUTSIDE: the whole 95 % interval lies within the tolerance, or outside; INCONCLUSIVE: it straddles the
-    limit; NOT_SERVED: the model rejects the scene; NO_RESULT: the model failed.
+    Attributes
+    ----------
+    WITHIN : Verdict
+        The whole 95 % interval lies within the tolerance.
+    OUTSIDE : Verdict
+        The whole interval lies outside it.
+    INCONCLUSIVE : Verdict
+        The interval straddles the limit.
+    NOT_SERVED : Verdict
+        The model rejects the scene.
+    NO_RESULT : Verdict
+        The model failed.
+
+    Examples
+    --------
+    >>> [str(verdict) for verdict in validation.Verdict]
+    ['within tolerance', 'outside tolerance', 'inconclusive', 'not served', 'no result']
     """
 
     WITHIN = "within tolerance"

@@ -108,8 +108,41 @@ class ContactProblem:
 class KnownContact(ContactProblem):
     """A problem with its discrete answer.
 
-    pressure (n, m) [Pa]; stiffness: dF/dd of the fixed contact [N/m]; area [m^2]; limits: approach, stiffness and area
-    on cells of no size, and the half-widths that the grids leave, (3, 2).
+    A rigid indenter on an elastic half-space: p >= 0, w = gap + u - approach >= 0, p w = 0. Made by `problems`.
+
+    Attributes
+    ----------
+    name : str
+        Of the problem, unlike all others.
+    gap : ndarray, shape (n, m)
+        Undeformed separation at the centres of cells [m].
+    spacing : tuple of float
+        Sides of a cell (dx, dy) [m].
+    modulus : float
+        Contact modulus E* [Pa].
+    periodic : bool
+        Whether the half-space repeats the grid; its displacement has no mean then.
+    force : float
+        Sum of the pressure over the cells [N].
+    approach : float
+        Rigid approach of the answer on the grid [m].
+    pressure : ndarray, shape (n, m)
+        Pressure on each cell [Pa], zero outside the contact.
+    stiffness : float
+        dF/dd of the fixed contact [N/m], infinite for a full periodic contact.
+    area : float
+        Of the cells in contact [m^2].
+    limits : ndarray, shape (3, 2)
+        Approach [m], stiffness [N/m] and area [m^2] on cells of no size, each with the half-width that the grids leave.
+
+    Examples
+    --------
+    >>> sphere = validation.problems()[0]
+    >>> sphere
+    KnownContact('sphere', 48 x 48 cells, free, F = 106.7 N)
+    >>> (approach, half_width), *_ = sphere.limits
+    >>> f"{sphere.approach * 1e6:.4f} um, without a grid {approach * 1e6:.4f} +- {half_width * 1e6:.4f} um"
+    '3.9985 um, without a grid 4.0002 +- 0.0004 um'
     """
 
     pressure: FloatArray

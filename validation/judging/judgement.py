@@ -205,8 +205,26 @@ class SolverTime(NamedTuple):
 class JudgedRange:
     """Neighbouring numbers of one verdict.
 
-    where: the conditions but for the parameter; along: the parameter, empty where there is none; start, stop: its
-    values at the first and the last number.
+    Attributes
+    ----------
+    quantity : str
+        What was computed.
+    where : Mapping
+        The conditions but for the parameter, by name.
+    along : str
+        The parameter, empty where there is none.
+    start, stop : float
+        Its values at the first and the last number, ascending, in its own unit; NaN without a parameter.
+    verdict : Verdict
+        Of each of the numbers.
+
+    Examples
+    --------
+    >>> @validation.stiffness_model("flat punch")
+    ... def flat(side, modulus):
+    ...     return 1.1523 * modulus * side
+    >>> validation.judge(flat).ranges[0]
+    JudgedRange('mean stiffness' at H = 0.4, Fbar = 0.001 to 2.15: outside tolerance)
     """
 
     quantity: str
