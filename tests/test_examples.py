@@ -13,7 +13,9 @@ import bem3d
 import mdr
 import validation
 from validation.analysis.series import Margin
+from validation.analysis.statistics import regression_mean
 from validation.case import Case, Chart, Claim, Curve, Engine, Panel, Series, Study
+from validation.scenes.rail_impedance import FreeBeam
 from validation.scenes.scene import Scene
 
 PUBLIC = {
@@ -25,7 +27,9 @@ PUBLIC = {
 """Without the names of 0.1, which are the same objects, and without tables."""
 CENTRAL = (Series, Margin, Claim, Study, Chart, Curve, Panel, Case, Engine, Scene)
 """What a case, a solve and a scene are made of, for whoever adds one."""
-SHOWN = {**PUBLIC, **{f"{kind.__module__}.{kind.__name__}": kind for kind in CENTRAL}}
+INNER = (FreeBeam, regression_mean)
+"""Others with an example: formulas of which a number says more than a sentence."""
+SHOWN = {**PUBLIC, **{f"{member.__module__}.{member.__name__}": member for member in (*CENTRAL, *INNER)}}
 """Whose docstrings have an example."""
 
 

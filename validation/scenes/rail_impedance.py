@@ -66,9 +66,25 @@ class FreeBeam:
     A rail on its fastenings follows it above the frequency at which it decouples from the sleepers, some hundreds of
     hertz; below, a track is stiffer.
 
-    bending_stiffness: EI [N m^2]; mass_per_length: rho A [kg/m]; positive, ValueError for others. Source: Cremer,
-    Heckl, Petersson, Structure-Borne Sound.
+    Attributes
+    ----------
+    bending_stiffness : float
+        EI [N m^2], positive.
+    mass_per_length : float
+        rho A [kg/m], positive.
 
+    Raises
+    ------
+    ValueError
+        If one of them is not positive.
+
+    Notes
+    -----
+    Cremer, Heckl, Petersson, *Structure-Borne Sound*.
+
+    Examples
+    --------
+    >>> from validation.scenes.rail_impedance import FreeBeam
     >>> f"{abs(FreeBeam(bending_stiffness=6.38e6, mass_per_length=60.2).impedance(4400)):.3g} N s/m"
     '2.04e+05 N s/m'
     """
