@@ -24,7 +24,7 @@ ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class PlainIterate:
+class Iterate:
     """Pressure [Pa], approach [m], residual from a fresh operator application, and all applications so far."""
 
     pressure: FloatArray
@@ -101,8 +101,8 @@ def _iterate(problem: Problem, tolerance: float, max_iterations: int) -> Iterati
     return attempt
 
 
-def polonsky_keer(problem: Problem) -> Iterator[PlainIterate]:
-    """PlainIterate towards p >= 0, w = gap + u - approach >= 0, p w = 0; the caller decides when to stop.
+def polonsky_keer(problem: Problem) -> Iterator[Iterate]:
+    """Iterate towards p >= 0, w = gap + u - approach >= 0, p w = 0; the caller decides when to stop.
 
     Conjugate directions t on the current contact p > 0, exact line search, truncation at p = 0; cells that overlap
     without pressure join the contact, and the directions start anew. At prescribed force the approach is the mean of
@@ -125,7 +125,7 @@ def polonsky_keer(problem: Problem) -> Iterator[PlainIterate]:
         s = mean_over(contact, separation) if depth is None else depth
         w = separation - s
         applications += 1
-        yield PlainIterate(pressure, problem.first_touch + s, residual(pressure, w, s), applications)
+        yield Iterate(pressure, problem.first_touch + s, residual(pressure, w, s), applications)
 
         square = float((w[contact] ** 2).sum())
         direction = np.where(contact, w + square / square_before * direction, 0.0)
