@@ -154,9 +154,11 @@ class Contact(ReadOnly):
 
         Returns
         -------
-        density, edges : ndarray, shapes (bins,) and (bins + 1,)
-            P(p) [1/Pa] over the contact, sum(density * diff(edges)) = 1, and the ends of the intervals [Pa]. Over the
-            nominal area it is times ``area`` over that. Both are zero without contact.
+        density : ndarray, shape (bins,)
+            P(p) [1/Pa] over the contact, sum(density * diff(edges)) = 1, zero without contact. Over the nominal area it
+            is times ``area`` over that.
+        edges : ndarray, shape (bins + 1,)
+            Ends of the intervals [Pa], zero without contact.
 
         Raises
         ------

@@ -38,11 +38,11 @@ class LoadPath(Iterator[Contact]):
     Parameters
     ----------
     contacts : iterator
-        Contacts, each with what it warns of, solved when it is taken.
-    loads : ndarray, shape (loads,)
-        Prescribed approaches [m] or forces [N].
+        Each contact, solved when it is taken, with the warnings that no load before it has given.
+    loads : array_like, shape (loads,)
+        Prescribed approaches [m] or forces [N], as many as there are contacts.
     has_stiffness : bool
-        Whether each contact stores its ``frozen`` contact area.
+        Whether the contacts have ``frozen`` contact areas, without which the path has no ``stiffness``.
 
     Attributes
     ----------
@@ -62,6 +62,8 @@ class LoadPath(Iterator[Contact]):
     --------
     >>> body = bem3d.HalfSpace(shape=(8, 8), spacing=1e-4, modulus=1e11)
     >>> path = bem3d.indent(body, np.zeros((8, 8)), approaches=[1e-7, 2e-7], indenter_ends_at_edge=True)
+    >>> [str(contact.status) for contact in path]
+    ['converged', 'converged']
     >>> bool(np.allclose(path.force[1], 2 * path.force[0])), path.loads * 1e7
     (True, array([1., 2.]))
     """
@@ -158,9 +160,7 @@ def indent(
     Raises
     ------
     ValueError, TypeError
-        If an argument is out of range, before the first contact.
-    ConvergenceError
-        If a contact does not reach the tolerance.
+        If an argument is out of range, before the first contact. A failed contact raises as it is taken.
 
     Warns
     -----
@@ -172,10 +172,8 @@ def indent(
     >>> x = (np.arange(65) - 32) * 5e-5
     >>> body = bem3d.HalfSpace(shape=(65, 65), spacing=5e-5, modulus=1e11)
     >>> contacts = bem3d.indent(body, (x[:, None] ** 2 + x**2) / (2 * 0.1), approaches=[2e-6, 4e-6], stiffness=True)
-    >>> [f"{contact.stiffness():.3g} N/m" for contact in contacts]
-    ['9.01e+07 N/m', '1.26e+08 N/m']
-    >>> print(*(f"{force:.4g} N" for force in contacts.force))
-    119.3 N 337.4 N
+    >>> contacts.force.round(2), (contacts.stiffness / 1e7).round(2)
+    (array([119.29, 337.44]), array([ 9.01, 12.61]))
     """
     problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
