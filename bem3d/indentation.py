@@ -152,15 +152,12 @@ def indent(
     Returns
     -------
     LoadPath
-        An iterator over a `Contact` at each load, solved when it is taken; begun from the last along the tangent
-        p + f dd, or else along the secant through the last two. Its arrays have the numbers of all loads.
+        A `Contact` at each load, solved when it is taken; begun along the tangent p + f dd, or the secant through two.
 
     Raises
     ------
-    ValueError, TypeError
-        If an argument is out of range, before the first contact.
-    ConvergenceError
-        If a contact does not reach the tolerance.
+    ValueError, TypeError, ConvergenceError
+        If an argument is out of range, before the first contact; if a contact does not reach the tolerance.
 
     Warns
     -----
@@ -174,14 +171,12 @@ def indent(
     >>> contacts = bem3d.indent(body, (x[:, None] ** 2 + x**2) / (2 * 0.1), approaches=[2e-6, 4e-6], stiffness=True)
     >>> [f"{contact.stiffness():.3g} N/m" for contact in contacts]
     ['9.01e+07 N/m', '1.26e+08 N/m']
-    >>> print(*(f"{force:.4g} N" for force in contacts.force))
-    119.3 N 337.4 N
     """
     problems = _problems(half_space, gap, approaches, forces, indenter_ends_at_edge)
     tolerance, max_iterations = fraction("tolerance", tolerance), count("max_iterations", max_iterations)
     frozen = fraction("stiffness_tolerance", stiffness_tolerance) if stiffness else None
     contacts = _path(problems, frozen, tolerance, max_iterations, raise_on_failure, steps(progress, len(problems)))
-    return LoadPath(contacts, np.array([_prescribed(problem) for problem in problems]), has_stiffness=stiffness)
+    return LoadPath(contacts, np.array(list(map(_prescribed, problems))), has_stiffness=stiffness)
 
 
 def _problems(
