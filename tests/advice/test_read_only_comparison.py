@@ -61,5 +61,4 @@ def test_an_answer_has_a_copy_of_what_a_model_returned():
 )
 def test_levels_of_a_wheel_cannot_be_written():
     found = compared(Finding(value=(0.1,) * 5), scene=wheel(), quantity="force-spectrum")
-    with pytest.raises(ValueError, match="read-only"):
-        found.value[0] = 7.0
+    assert not found.value.flags.writeable

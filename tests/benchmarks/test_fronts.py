@@ -198,7 +198,7 @@ def test_times_faster_are_those_of_the_cheapest_settings_within_the_same_toleran
     assert math.isnan(rows[1, MDR][FACTOR]) and math.isnan(rows[3, BEM_METHOD][FACTOR])
 
 
-@catches("an interval of times that is dropped").at(
+@catches("an interval of times that is dropped from a front").at(
     "validation.benchmarks.work_precision.pareto._uncertainty", lambda _: 0.0
 )
 def test_both_times_and_their_ratio_have_intervals():

@@ -45,7 +45,7 @@ def test_a_wider_band_has_the_long_waves_of_the_one_before():
 
 
 @catches("no plateau below the roll-off").at(
-    "validation.simulation.rough_punch.PlateauSpectrum.c2d", mdr.SelfAffine.c2d
+    "validation.simulation.rough_punch.PlateauSpectrum._density", mdr.SelfAffine._density
 )
 def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
     """Four waves on a side at the roll-off: equal power in each below, (q_r / q)^(2 H + 2) above, none beyond."""

@@ -21,6 +21,7 @@ from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, bandwidth_study, fractal_punch, interface
 from validation.cases.rolling import force_spectrum, ridges
 from validation.cases.wheel import distance, half_space, spectrum
+from validation.engine.engine import identity
 from validation.engine.realisations import NotConvergedError
 from validation.simulation import rolling_strip, rough_punch, wheel_on_springs
 from validation.simulation.limits import swept
@@ -140,7 +141,7 @@ def test_what_is_lost_is_a_line_of_the_result(name):
     module, case, lost, line = LOST[name]
     whole = Given(solved)
     assert module.run(case, whole).unconverged == ()
-    assert len({repr(problem) for problem in whole.seen}) == len(whole.seen)
+    assert len({identity(problem) for problem in whole.seen}) == len(whole.seen)
     found = module.run(case, Given(solved, lost)).unconverged
     assert len(found) == 1 and found[0].startswith(line), found
 

@@ -185,7 +185,7 @@ def test_a_stiffness_that_falls_between_loads_that_are_known_is_found(deep):
 
 
 @catches("the level of a power law for that of its plateau").at(
-    "validation.judging.kinds.stiffness.PlateauRoughness.c2d", PlateauSpectrum.c2d
+    "validation.judging.kinds.stiffness.PlateauRoughness._density", PlateauSpectrum._density
 )
 def test_a_plateau_is_given_with_its_own_rms_height():
     rough = JudgedPunch(0.7, 0.1, 64, 8).arguments["roughness"]
