@@ -23,7 +23,7 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-import scipy.signal
+import scipy
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import NominalBands
