@@ -155,7 +155,7 @@ def test_a_filter_that_is_off_in_the_first_band_reaches_no_wave(monkeypatch):
 @pytest.mark.parametrize(
     ("alpha", "half", "said"),
     [
-        (across.FINE_ALPHAS[0], 0.0, "0.1 and less"),
+        (across.FINE_ALPHAS[0], 0.0, "0.05 and less"),
         (across.FINE_ALPHAS[-1], 0.0, "8 and more"),
         (0.5, 0.001, "0.50 ± 0.01"),
         (0.5, 0.0, "0.50 ± 0.00"),

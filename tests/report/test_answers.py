@@ -194,9 +194,9 @@ def test_the_table_of_the_readme_names_them_and_its_ranges_share_no_value():
     (row,) = (row for row in plain([mean_stiffness(*by_hurst())]))
     _, answer, over, _ = runpy.run_path(str(ROOT / ".ci" / "readme.py"))["cells"](json.loads(json.dumps(row)))
     assert (over, answer) == (
-        "Fbar",
-        "**In part.** within tolerance: 0.01 ≤ Fbar < 0.1; inconclusive: 0.1 ≤ Fbar < 1 (H = 0.4 alone); "
-        "outside tolerance: 0.001 ≤ Fbar < 0.01 (H = 1 alone) and 1 ≤ Fbar ≤ 10",
+        "F̄",
+        "**In part.** within tolerance: 0.01 ≤ F̄ < 0.1; inconclusive: 0.1 ≤ F̄ < 1 (H = 0.4 alone); "
+        "outside tolerance: 0.001 ≤ F̄ < 0.01 (H = 1 alone) and 1 ≤ F̄ ≤ 10",
     )
 
 

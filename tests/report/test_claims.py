@@ -167,9 +167,9 @@ def test_every_claim_has_a_key_of_its_own_in_its_case():
 def test_claims_of_a_report_from_before_there_were_keys_have_those_of_their_words():
     for section in sections():
         declared = [claim.key for claim in section.entry.study.claims]
-        assert [claim.key for claim in section.claims] == [
-            key for key in declared if key in {c.key for c in section.claims}
-        ]
+        # a claim that a case no longer makes keeps its key until the report is remade
+        written = [claim.key for claim in section.claims]
+        assert [key for key in written if key in declared] == [key for key in declared if key in written]
         assert all(claim.key for claim in section.claims)
 
 

@@ -40,6 +40,12 @@ VARIANTS = {
         "wheel": {"load": LEFT_OUT, "axle_load": "100 kN", "wheels_per_axle": 2, "radius": LEFT_OUT, "diameter": "1 m"},
         "rail": {"lateral_structure": LEFT_OUT, "lateral_ratio": 1.0},
     },
+    "free beam": {
+        "of": "rail",
+        "wheel": {"mass": "500 kg", "transfer": 840, "axles": 2},
+        "rail": {"impedance": "free beam", "bending_stiffness": 6.38e6, "mass_per_length": 60.2},
+    },
+    "dashpot": {"of": "rail", "wheel": {"mass": "500 kg"}, "rail": {"impedance": 1.5e5}},
     "number across": {"of": "rail", "rail": {"lateral_structure": 1.0}},
     "contact modulus": {
         "of": "rough_punch",

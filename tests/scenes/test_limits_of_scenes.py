@@ -53,8 +53,8 @@ def test_what_is_noted(scene, beyond, before, words):
         ("poisson_ratio = 0.3", "poisson_ratio = 0.5", {}),
         ("poisson_ratio = 0.3", "poisson_ratio = 0.501", "poisson_ratio must lie in"),
         ("poisson_ratio = 0.3", "poisson_ratio = -0.001", "poisson_ratio must lie in"),
-        ("# mass", 'mass = "1 t"\ndamping = 0.999  #', {"damping": 0.999, "mass": 1e3}),
-        ("# mass", 'mass = "1 t"\ndamping = 1.0  #', "wheel.damping must be at least 0 and below 1"),
+        ("# mass = ", 'mass = "1 t"\ndamping = 0.999  # ', {"damping": 0.999, "mass": 1e3}),
+        ("# mass = ", 'mass = "1 t"\ndamping = 1.0  # ', "wheel.damping must be at least 0 and below 1"),
     ],
 )
 def test_what_a_rail_is_made_of(old, new, value, tmp_path):

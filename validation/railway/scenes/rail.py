@@ -446,11 +446,18 @@ class RailScene(SceneDefaults):
                 "have no answer."
             )
         if self.force_in_motion > MAX_FORCE:
-            yield (
-                f"in motion the contact force changes by {self.force_in_motion:.3g} of the load, root mean square by "
-                f"linear theory, more than {MAX_FORCE:g}: the wheel leaves the rail at times; the contact filter is "
-                "that of a constant load."
+            change = (
+                f"changes by {self.force_in_motion:.3g} of the load, root mean square by linear theory, more than "
+                f"{MAX_FORCE:g}"
+                if math.isfinite(self.force_in_motion)
+                else "grows at the contact resonance, which nothing damps, until"
             )
+            leaves = (
+                ": the wheel leaves the rail at times"
+                if math.isfinite(self.force_in_motion)
+                else " the wheel leaves the rail"
+            )
+            yield f"in motion the contact force {change}{leaves}; the contact filter is that of a constant load."
         if (lines := self.parallel_lines) is not None and lines.shifts.any():
             shown = ", ".join(f"{1e3 * shift:g}" for shift in lines.shifts)
             yield (
