@@ -49,7 +49,18 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert main(["judge", str(file), "--out", str(tmp_path / "out"), *words]) == 0
     printed, found = capsys.readouterr().out, json.loads(places[0].read_text(encoding="utf-8"))
     assert list(found) == [
-        *("schema_version", "model", "kind", "tolerance", "verdicts", "ranges", "enough", "remarks", "seconds")
+        *(
+            "schema_version",
+            "model",
+            "kind",
+            "tolerance",
+            "numbers",
+            "verdicts",
+            "ranges",
+            "enough",
+            "remarks",
+            "seconds",
+        )
     ]
     assert found["schema_version"] == 2
     assert (found["model"], found["kind"], found["tolerance"]) == ("in series", "stiffness_model", 0.1)

@@ -148,7 +148,7 @@ def test_a_fork_is_named_and_its_answers_are_left_out(quick, file, tmp_path, cap
     assert (last["quantity"], last["outcome"]) == ("forking", NO_RESULT) and "a process that it forked" in last[
         "reason"
     ]
-    assert capsys.readouterr().out.count("forks: stiffness model") == 1
+    assert capsys.readouterr().out.count("tolerance 10 %); stiffness model") == 1
 
 
 @pytest.mark.parametrize("name", ["mine.py", "helper.py", "data.txt"])

@@ -296,10 +296,12 @@ def _resonance(scene: RollingScene, outcome: Outcome, family: int) -> Iterator[S
     """Region 1, an integral over the resonance: of springs by the force that its lines tell, and in closed form.
 
     A periodic motion has lines, of which none may be on the resonance: A over the gain of each is the spectrum of the
-    force, which is level over the resonance, and its integral is that through the whole of the resonance.
+    force, which is level over the resonance, and its integral is that through the whole of the resonance. The lines are
+    those within WIDTH of it, or the two nearest where a record is short.
     """
     omega, same = outcome["omega"], {name: getattr(scene, name) for name in ("eigenfrequency", "mass", "damping")}
-    near = np.abs(np.log(omega / scene.eigenfrequency)) < math.log(WIDTH)
+    apart = np.abs(np.log(omega / scene.eigenfrequency))
+    near = apart <= max(math.log(WIDTH), np.sort(apart)[:2].max())
     force = (outcome["plain"][:, near] / acceleration_over_force(omega[near], **same)).mean(axis=1)
     q_max = scene.cutoff / scene.rolling_speed
     theory = theory_of(scene).over_resonance(ensembles.roughness(scene), q_max=q_max)

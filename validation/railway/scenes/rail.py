@@ -513,7 +513,7 @@ def _check_transfer(scene: RailScene) -> None:
             f"CNOSSOS-EU, got {shortened(scene.transfer)}; left out: the nearest to that of the wheel"
         )
     if scene.axles is not None and count("wheel.axles", scene.axles, least=1) > MOST_AXLES:
-        raise ValueError(f"wheel.axles must be at most {MOST_AXLES}, got {scene.axles}")
+        raise ValueError(f"wheel.axles must be at most {MOST_AXLES}, got {shortened(scene.axles)}")
 
 
 def _check_bands(scene: RailScene) -> None:
