@@ -69,7 +69,7 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert point["conditions"] == {"hurst": point["where"]["H"], "normalised_load": point["where"]["Fbar"]}
     assert point["difference"] == pytest.approx(point["value"] / point["reference"] - 1)
     assert {"quantity", "where", "along", "from", "to", "verdict"} == set(found["enough"][0])
-    assert {"quantity", "conditions", "along", "from", "to", "outcome"} == set(found["ranges"][0])
+    assert {"quantity", "conditions", "along", "from", "to", "start", "stop", "outcome"} == set(found["ranges"][0])
     ranges = [r for r in found["ranges"] if r["quantity"] == "mean stiffness" and r["conditions"] == {"hurst": 0.7}]
     assert [(r["along"], r["outcome"]) for r in ranges] == [("normalised_load", OUTSIDE), ("normalised_load", WITHIN)]
     rows = list(csv.DictReader(places[1].read_text(encoding="utf-8").splitlines()))

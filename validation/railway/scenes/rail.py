@@ -446,18 +446,13 @@ class RailScene(SceneDefaults):
                 "have no answer."
             )
         if self.force_in_motion > MAX_FORCE:
-            change = (
-                f"changes by {self.force_in_motion:.3g} of the load, root mean square by linear theory, more than "
-                f"{MAX_FORCE:g}"
-                if math.isfinite(self.force_in_motion)
-                else "grows at the contact resonance, which nothing damps, until"
+            change = f"changes by {self.force_in_motion:.3g} of the load, root mean square by linear theory, more than"
+            if math.isinf(self.force_in_motion):
+                change = "grows at the contact resonance, which nothing damps, beyond"
+            yield (
+                f"in motion the contact force {change} {MAX_FORCE:g}: the wheel leaves the rail at times; the contact "
+                "filter is that of a constant load."
             )
-            leaves = (
-                ": the wheel leaves the rail at times"
-                if math.isfinite(self.force_in_motion)
-                else " the wheel leaves the rail"
-            )
-            yield f"in motion the contact force {change}{leaves}; the contact filter is that of a constant load."
         if (lines := self.parallel_lines) is not None and lines.shifts.any():
             shown = ", ".join(f"{1e3 * shift:g}" for shift in lines.shifts)
             yield (
