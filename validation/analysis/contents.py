@@ -90,7 +90,8 @@ def conditions_in_json(where: Mapping[str, Any]) -> dict[str, Any]:
 def folder_names(texts: Sequence[str]) -> list[str]:
     """A folder name for each text, valid on every file system and unique on those that ignore case.
 
-    "law (1)" and "Law [1]" are "law_1" and "Law_1-2". No name is longer than `LONGEST_NAME` bytes.
+    "law (1)" and "Law [1]" are "law_1" and "Law_1-2". Letters of any script stay, an empty name is "model", one that a
+    system reserves begins with _. No name is longer than `LONGEST_NAME` bytes.
     """
     names: list[str] = []
     for text in texts:

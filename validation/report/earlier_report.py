@@ -95,6 +95,7 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
 
 
 def _number(entry: Mapping[str, Any]) -> Number:
+    """A number from its entry in results.json. Raises KeyError for a missing field, ValueError for an unknown role."""
     fields_of_number = {field.name: entry[field.name] for field in fields(Number)}
     fields_of_number["quantity"] = quantity_with(entry["quantity"])
     where = {name: tuple(place) if isinstance(place, list) else place for name, place in entry["where"].items()}

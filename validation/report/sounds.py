@@ -23,7 +23,10 @@ def quantised(samples: ArrayLike, full_scale: float) -> NDArray[np.int16]:
 
 
 def wavs(sounds: Sounds, samples: Table) -> dict[str, bytes]:
-    """A mono file of 16 bit for each track, by their names."""
+    """A mono file of 16 bit for each track, by its name without a suffix, `repeats` times the samples.
+
+    Raises ValueError for a sample beyond `full_scale`.
+    """
     files = {}
     for track in sounds.tracks:
         values = quantised(samples[track.column], sounds.full_scale)

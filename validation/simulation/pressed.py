@@ -141,7 +141,11 @@ def roll_on_layer(surface: FloatArray, spacing: float) -> Reduced:
 
 
 def press(strip: FloatArray, spacing: float) -> Layers:
-    """A strip of mean height zero under each mean pressure, from the highest down, each from the one before."""
+    """A strip of mean height zero under each of the `PRESSURES`, ascending, each solved from the start.
+
+    A layer has the Fourier coefficients along the track of the deformed height less its mean, and of the pressure less
+    its mean; the means of the deformed height are the `law` of the gap. Raises bem3d.ConvergenceError.
+    """
     half_space = bem3d.HalfSpace(shape=strip.shape, spacing=spacing, modulus=1.0, periodic=True)
     heights, pressures, gaps, work = [], [], [], 0
     for mean in PRESSURES:

@@ -121,7 +121,7 @@ def level(force: FloatArray, track: RoughTrack) -> float:
 
 
 def linear_level(height: FloatArray, stride: int, track: RoughTrack) -> float:
-    """The ratio of levels in linear theory, of springs so many places apart over those at every place."""
+    """Ratio of powers in the highest band by linear theory, of springs `stride` places apart to those at each."""
     band = highest_band(track)
     power = np.abs(np.fft.rfft(height)[band]) ** 2
     coarse, fine = (np.sum(power * linear_response(track, n) ** 2) for n in (stride, 1))

@@ -49,7 +49,8 @@ def contact_resonance(*, stiffness: float, mass: float, impedance: Callable[[flo
     """omega at which the imaginary parts of i omega / k + 1 / (i omega M) + 1 / Z(omega) cancel [rad/s].
 
     The mobilities of the contact spring, of the wheel and of the rail under it; impedance: Z [N s/m], of a mass or a
-    damper. Above sqrt(k / M), where the rail is rigid. Source: Thompson, Railway Noise and Vibration, chapter 2.
+    damper. It is sqrt(k / M) on a rigid rail, and where the sum is not negative there, otherwise higher.
+    Source: Thompson, Railway Noise and Vibration, chapter 2.
     """
     rigid = math.sqrt(stiffness / mass)
 

@@ -364,7 +364,7 @@ def _kappa(case: Interface, ground: Ground, area: Compared) -> Iterator[Series]:
 
 
 def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Outcome) -> Iterator[Series]:
-    """The punch, its interface in series with the flat punch, and springs, load by load."""
+    """Stiffness of the punch over its load, of its interface in series with the flat one, and of springs, by load."""
     ground, forces, slope = case.pressed, np.array(case.forces), case.slopes(case.pressed)
     shown = partial(Series, where=_where(ground), along=CONTACT, at=case.per_cent, shown=math.exp)
     (on_punch, finer), over = punch.of("stiffness"), Estimates.exact(np.log(forces))

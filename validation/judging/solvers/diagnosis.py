@@ -338,7 +338,7 @@ def _unexplained(
 
 
 def explained(wrong: Sequence[JudgedContact]) -> dict[str, list[float]]:
-    """Of each cause the parts of the errors that it explains, the more specific cause first."""
+    """Of each cause the part, 0 to 1, of the error of each contact that it explains; the more specific cause first."""
     tables = [_parts(contact) for contact in wrong]
     parts = {
         name: [table.get(name, 0.0) for table in tables]

@@ -155,6 +155,7 @@ class RailQuantity:
         return ends if both else np.where(self.stands_out, ends, ends[-1])
 
     def _of_ground(self, ground: TransverseStructure, line: LineSpectrum, transfer: Filter) -> FloatArray:
+        """Band powers of the filtered roughness relative to those of the line [dB]."""
         axes = self.scene.contact.semi_axes
         return np.asarray(10 * np.log10(ground.band_power(line, transfer, edges=self.bands.edges, semi_axes=axes)))
 

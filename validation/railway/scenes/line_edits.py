@@ -261,10 +261,10 @@ class EditedLine:
 
     @classmethod
     def of(cls, height: FloatArray, spacing: float) -> "EditedLine":
-        """Runs and clipped parts are taken out first, then spikes and pits, then steps, which neither of them is.
+        """The line without its faults. Runs and clipped parts are taken out first, then spikes and pits, then steps.
 
         Bursts of noise come last; spikes and pits in them are part of them. Where too much of a line is gone, the rest
-        is left as it is.
+        is left as it is. Drift is subtracted at the end.
         """
         runs = runs_of(height)
         if (first := cls(height, height, runs, spacing)).unknown:

@@ -166,7 +166,10 @@ class _Prominent:
         return max(0, min(i, first) - more), min(self.line.size - 1, max(i, last) + more)
 
     def named(self, measured: FloatArray, first: int, last: int) -> Outlier:
-        """What was replaced of a line, of which this is left: its height, over what is just found of its width."""
+        """The outlier between two points: its largest deviation from the line with its sign [m].
+
+        `margin`: this over the least deviation that is found at its width.
+        """
         off = (measured - self.line)[first : last + 1]
         size = float(off[np.abs(off).argmax()])
         wide = np.array(self.distances) > (last - first) / 2

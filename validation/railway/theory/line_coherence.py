@@ -252,7 +252,10 @@ def _where_below(q: FloatArray, limit: float) -> tuple[float, float]:
 
 
 def in_words(estimates: Sequence[LateralEstimate], bands: NominalBands) -> str:
-    """Ranges of bands of one kind, a clause each: the median of alpha, and the ends of all of their intervals."""
+    """A clause for the bands of each kind: the median of alpha and the ends of all intervals.
+
+    Or one end, or "not determined". Then the bands in which isotropic roughness is possible.
+    """
     clauses = []
     for kind in dict.fromkeys(estimate.kind for estimate in estimates):
         of_kind = [estimate for estimate in estimates if estimate.kind == kind]
