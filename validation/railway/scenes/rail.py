@@ -446,11 +446,11 @@ class RailScene(SceneDefaults):
                 "have no answer."
             )
         if self.force_in_motion > MAX_FORCE:
-            change = f"changes by {self.force_in_motion:.3g} of the load, root mean square by linear theory, more than"
+            change = f"changes by {self.force_in_motion:.3g} of the load, root mean square by linear theory, more than "
             if math.isinf(self.force_in_motion):
-                change = "grows at the contact resonance, which nothing damps, beyond"
+                change = "has no bound by linear theory, since nothing damps the contact resonance: its limit is "
             yield (
-                f"in motion the contact force {change} {MAX_FORCE:g}: the wheel leaves the rail at times; the contact "
+                f"in motion the contact force {change}{MAX_FORCE:g}; the wheel leaves the rail at times. The contact "
                 "filter is that of a constant load."
             )
         if (lines := self.parallel_lines) is not None and lines.shifts.any():
