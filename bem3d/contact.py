@@ -101,7 +101,7 @@ class Contact(ReadOnly):
 
     @cached_property
     def corrected_area(self) -> float:
-        """Contact area less what the grid adds along its boundary, an estimate for cells of no size [m^2].
+        """Contact area less what the grid adds along its boundary, an estimate at zero cell size [m^2].
 
         A' = A - (pi - 1 + ln 2) / 24 S, S the number of sides between a cell under pressure and one without, times
         dx dy: the area of a cell counts as a whole where a part of it is in contact. Sides along the end of a free

@@ -33,7 +33,7 @@ FULL = 1e-3
 EXACT = 1e-9
 """Residual of an answer by the operator that judges."""
 LIMITS = ("approach", "stiffness", "area")
-"""What is extrapolated to cells of no size."""
+"""What is extrapolated to zero cell size."""
 
 
 @lru_cache(maxsize=8)
@@ -156,7 +156,7 @@ def problems() -> tuple[KnownContact, ...]:
     tuple
         Of problems in SI units. Each has ``name``, ``gap`` (n, m), ``spacing`` (dx, dy), ``modulus``, ``periodic`` and
         ``force``; the answer on its grid ``approach``, ``pressure`` (n, m), ``stiffness``, ``area``; and ``limits``
-        (3, 2): approach, stiffness and area on cells of no size, with what the grids leave. Arrays are read-only.
+        (3, 2): approach, stiffness and area at zero cell size, with what the grids leave. Arrays are read-only.
         The stiffness of a full periodic contact is infinite.
 
     Examples
@@ -306,7 +306,7 @@ def answered(problem: ContactProblem) -> dict[str, Any]:
 
 
 def extrapolated(stated: Stated) -> dict[str, Any]:
-    """The answer on the first of three grids, with its limits on cells of no size."""
+    """The answer on the first of three grids, with its limits at zero cell size."""
     grids = [answered(stated.on(stated.cells[0] * 2**i)) for i in range(3)]
     coarse, middle, fine = (np.array([grid[what] for what in LIMITS]) for grid in grids)
     limit, before = _extrapolated_values(middle, fine), _extrapolated_values(coarse, middle)

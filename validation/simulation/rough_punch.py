@@ -33,7 +33,7 @@ LOST = (np.nan,) * 4
 
 
 def left_by_solver(log_deviation: float = math.inf) -> float:
-    """Of a logarithm on cells of no size, by the residual of the fixed contact areas; of the mean, or of a deviation.
+    """Of a logarithm at zero cell size, by the residual of the fixed contact areas; of the mean, or of a deviation.
 
     2 fine - coarse has three times the error of one grid, as if all went the same way. That of a standard deviation is
     no more than the standard deviation of the errors (triangle inequality).

@@ -198,7 +198,7 @@ class Deviations:
         return changes
 
     def resolved(self, method: str, hurst: float, level: int) -> dict[int, Resolved]:
-        """Boundary elements to first order on cells of no size, and half of the way there, with what the solver leaves;
+        """Boundary elements to first order at zero cell size, and half of the way there, with what the solver leaves;
         springs as they are, and what twice as many change."""
         values, steps = (of(method, hurst, level) for of in (self.by_band, self.steps))
         taken = {BEM: 2.0, MDR: 0.0}[method]

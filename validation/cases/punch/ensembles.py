@@ -136,7 +136,7 @@ def change(statistic: Statistic, before: FloatArray, after: FloatArray) -> Estim
 
 
 def with_solver(finer: Estimate | float) -> Estimate | float:
-    """A change to half as long cells, with what the solver leaves of a mean on cells of no size in quadrature; a float,
+    """A change to half as long cells, with what the solver leaves of a mean at zero cell size in quadrature; a float,
     of springs or theory, as it is."""
     if not isinstance(finer, Estimate):
         return finer

@@ -1,4 +1,4 @@
-"""Fig. 14.1: rough square punches under equal forces, by both methods: solves, and statistics on cells of no size."""
+"""Fig. 14.1: rough square punches under equal forces, by both methods: solves, and statistics at zero cell size."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -266,7 +266,7 @@ class PunchStatistics:
         return {key: {n: log(mean) for n, mean in of_grids.items()} for key, of_grids in means.items()}
 
     def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
-        """On cells of no size, with what the solver leaves, or on twice the springs."""
+        """Extrapolated to zero cell size, with what the solver leaves, or on twice the springs."""
         steps = list(self.steps(hurst, method, statistic, level).values())
         if method != BEM:
             return on_finest(steps)

@@ -188,7 +188,7 @@ STUDY = Study(
         "(control variates): the highest 0.1, 1 and 10 % of the cells, and three moments weighted by the pressure of "
         "the flat punch. The stiffness is that of the fixed contact area (3D) and of the springs in contact (1D). "
         "There are three errors. Sample: intervals that hold at 95 % for all forces of a decade at once. Grid: "
-        "boundary elements are extrapolated to cells of no size, to first order from the two finest grids; ± grid is "
+        "boundary elements are extrapolated to zero cell size, to first order from the two finest grids; ± grid is "
         "the distance to the extrapolation from the next two, with the residual of the solver and the change from "
         "twice the springs. The rest is the error of the model. The verdict of a decade is that of its worst force: "
         "where models differ, they do so at one force of it at least. In verdicts alone a relative standard deviation "

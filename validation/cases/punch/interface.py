@@ -196,7 +196,7 @@ class Measured:
         return iter((self.coarse, self.fine))
 
     def of(self, *names: str, statistic: Statistic = log_mean) -> tuple[Estimates, Estimates]:
-        """ln of the mean, by default, on cells of no size at each load, and the changes that leave its grid error.
+        """ln of the mean, by default, at zero cell size at each load, and the changes that leave its grid error.
 
         names: an outcome, or several, which stand behind each other along the first axis of what the statistic has.
         """

@@ -178,7 +178,7 @@ def octaves_of(bands: Bands, spectrum: PiecewisePowerLaw) -> NDArray[np.intp]:
 def of_bem(
     result: Outcomes, height: float, summed: Callable[[FloatArray], FloatArray] = np.asarray
 ) -> tuple[Estimates, Estimates]:
-    """ln of the level of boundary elements over linear theory on cells of no size, and the change to finer cells.
+    """ln of the level of boundary elements over linear theory at zero cell size, and the change to finer cells.
 
     summed: from levels in one-third octaves to those that are compared.
     """

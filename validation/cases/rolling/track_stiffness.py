@@ -139,7 +139,7 @@ def _moments(result: Outcomes, quantity: str, force: float) -> Iterator[Series]:
 
 
 def of_bem(result: Outcomes, quantity: str, force: float) -> tuple[Estimate, float]:
-    """ln of the mean stiffness, or of its relative deviation, on cells of no size; half-width that the grid leaves."""
+    """ln of the mean stiffness, or of its relative deviation, at zero cell size; half-width that the grid leaves."""
     coarse, fine = result[WHEEL, force], result[REFINED, force]
     same = {name: values[: len(fine["mean"])] for name, values in coarse.items()}
     return extrapolated(moment(quantity, coarse), moment(quantity, fine, same))

@@ -173,7 +173,7 @@ class WheelLevels:
 
     @cached_property
     def ratio(self) -> Estimates:
-        """ln of boundary elements over the linear contact on the same strips, band by band, on cells of no size."""
+        """ln of boundary elements over the linear contact on the same strips, band by band, at zero cell size."""
         ratio = Estimates.ratios(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
         return ratio.extrapolate_to_zero(self.change)
 

@@ -220,7 +220,7 @@ LOADS = tuple(10.0 ** (-i / 6) for i in (13, 9, 5, 1))
 
 
 def pressed(engine: Engine) -> Iterator[Reference]:
-    """Mean of k / (E* L) over the surfaces, to first order on cells of no size, by the surfaces of both grids."""
+    """Mean of k / (E* L) over the surfaces, to first order at zero cell size, by the surfaces of both grids."""
     groups = {
         (punch, times): [
             Surface(

@@ -315,7 +315,7 @@ def solved_surfaces(engine: Engine) -> Iterator[Reference]:
     """The references: k / (E* L) of each surface on the finer of two grids, in three minutes of one core.
 
     On single surfaces the error of the cells has either sign and is of no order, where few cells touch least of all:
-    an answer on cells of no size cannot be told. As much is left as the finer grid and that which a model is given
+    an answer at zero cell size cannot be told. As much is left as the finer grid and that which a model is given
     differ, by the root mean square over the surfaces of one H and load, with Student's quantile.
     """
     groups = {
